@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace cuscus::posix {
+
+/// Asks for SCHED_FIFO at `priority` for the calling thread, with the smallest timer slack. False
+/// when the kernel refuses, which is normal without CAP_SYS_NICE.
+bool try_realtime_scheduling(int priority) noexcept;
+
+/// What the calling thread runs under: "SCHED_FIFO 50", "SCHED_OTHER".
+[[nodiscard]] std::string scheduling_class();
+
+/// Locks all memory, present and future; false when refused.
+bool try_lock_memory() noexcept;
+
+}  // namespace cuscus::posix

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "proto/shm/layout.h"
+#include "proto/shm/seqlock.h"
+
+namespace cuscus::shm {
+
+/// What became of a node's frames since the run began. A frame is counted once as sent; a
+/// reception is counted once at each receiver that the frame was meant for.
+struct RadioTally {
+  std::uint64_t offered;        ///< Frames that the node's programs handed to its interface.
+  std::uint64_t transmissions;  ///< Data frames put on the air, retries included.
+  std::uint64_t retries;
+  std::uint64_t acknowledged;  ///< Individually addressed frames confirmed by an ACK.
+  std::uint64_t received;      ///< Frames delivered to the node's interface.
+  // Frames the sender gave up, by cause.
+  std::uint64_t dropped_queue_full;
+  std::uint64_t dropped_lifetime;
+  std::uint64_t dropped_retry_limit;
+  std::uint64_t dropped_malformed;   ///< Too short, too long, not Ethernet II.
+  std::uint64_t dropped_before_air;  ///< Sent, but lost between the interface and the emulator.
+  // Receptions that failed at this node, by cause.
+  std::uint64_t lost_below_detection;  ///< Too weak to be detected.
+  std::uint64_t lost_noise;            ///< Detected, decoding failed without interference.
+  std::uint64_t lost_collision;        ///< Decoding or detection failed under interference.
+  std::uint64_t lost_half_duplex;      ///< The node was transmitting.
+  std::uint64_t lost_interface;  ///< Received, but the interface did not take it (down, full).
+};
+
+/// How well the emulator keeps up.
+struct RadioTiming {
+  std::int64_t release_lateness_p50_ns;
+  std::int64_t release_lateness_p99_ns;
+  std::int64_t release_lateness_max_ns;
+  std::uint64_t releases;
+  std::uint64_t clamps;
+  std::uint64_t events;
+};
+
+/// The latest frame heard over one directed link.
+struct LinkReading {
+  float received_dbm;
+  std::uint32_t sim_time_ms;
+};
+
+/// What the air did: written by netsim, read by the page and the orchestrator.
+struct RadioMemoryLayout {
+  static constexpr std::uint64_t kMagic = magic_of("CUSRADIO");
+  static constexpr std::uint32_t kVersion = 1;
+
+  struct alignas(kCacheLine) Progress {
+    std::atomic<std::uint64_t> heartbeat;
+    std::atomic<std::int64_t> sim_time_ns;
+    Seqlock<RadioTiming> timing;
+  };
+  struct alignas(kCacheLine) Slot {
+    Seqlock<RadioTally> tally;
+  };
+
+  Header header;
+  Progress progress;
+  // node_count Slots follow, then node_count x node_count links, receiver-major, each one word:
+  // the bits of received_dbm above sim_time_ms; 0 where nothing was ever heard.
+};
+
+class RadioMemoryWriter {
+ public:
+  [[nodiscard]] static std::size_t byte_size(std::uint32_t node_count);
+  RadioMemoryWriter(std::span<std::byte> memory, std::uint32_t node_count);
+
+  void publish(std::uint32_t node, const RadioTally& tally) noexcept;
+  void publish(const RadioTiming& timing) noexcept;
+  void publish_link(std::uint32_t receiver, std::uint32_t sender, LinkReading reading) noexcept;
+  /// Says that netsim lives and how far it has got.
+  void beat(std::int64_t sim_time_ns) noexcept;
+
+ private:
+  RadioMemoryLayout* layout_;
+  std::span<RadioMemoryLayout::Slot> slots_;
+  std::span<std::atomic<std::uint64_t>> links_;
+};
+
+class RadioMemoryReader {
+ public:
+  /// @throws LayoutError when `memory` is not radio memory.
+  explicit RadioMemoryReader(std::span<const std::byte> memory);
+
+  [[nodiscard]] std::uint32_t node_count() const noexcept;
+  [[nodiscard]] std::optional<RadioTally> tally(std::uint32_t node) const noexcept;
+  [[nodiscard]] std::optional<RadioTiming> timing() const noexcept;
+  /// Nothing when `receiver` never heard `sender`.
+  [[nodiscard]] std::optional<LinkReading> link(std::uint32_t receiver,
+                                                std::uint32_t sender) const noexcept;
+  [[nodiscard]] std::uint64_t heartbeat() const noexcept;
+  [[nodiscard]] std::int64_t sim_time_ns() const noexcept;
+
+ private:
+  const RadioMemoryLayout* layout_;
+  std::span<const RadioMemoryLayout::Slot> slots_;
+  std::span<const std::atomic<std::uint64_t>> links_;
+};
+
+}  // namespace cuscus::shm

@@ -1,0 +1,64 @@
+#include "proto/shm/vehicle_memory.h"
+
+#include <new>
+
+namespace cuscus::shm {
+
+SensorMemoryWriter::SensorMemoryWriter(std::span<std::byte> memory)
+    : layout_{new (memory.data()) SensorMemoryLayout{}} {
+  write_header(memory, {.magic = SensorMemoryLayout::kMagic,
+                        .version = SensorMemoryLayout::kVersion,
+                        .node_count = 0,
+                        .byte_size = byte_size()});
+}
+
+void SensorMemoryWriter::publish(const MotionCaptureReading& reading) noexcept {
+  layout_->motion_capture.store(reading);
+}
+
+void SensorMemoryWriter::publish(const ImuReading& reading) noexcept {
+  layout_->imu.store(reading);
+}
+
+SensorMemoryReader::SensorMemoryReader(std::span<const std::byte> memory)
+    : layout_{reinterpret_cast<const SensorMemoryLayout*>(memory.data())} {
+  checked_header(memory, SensorMemoryLayout::kMagic, SensorMemoryLayout::kVersion);
+}
+
+std::optional<MotionCaptureReading> SensorMemoryReader::motion_capture() const noexcept {
+  const auto reading = layout_->motion_capture.load();
+  return reading && reading->sequence != 0 ? reading : std::nullopt;
+}
+
+std::optional<ImuReading> SensorMemoryReader::imu() const noexcept {
+  const auto reading = layout_->imu.load();
+  return reading && reading->sequence != 0 ? reading : std::nullopt;
+}
+
+void ActuatorMemoryWriter::lay_out(std::span<std::byte> memory) {
+  new (memory.data()) ActuatorMemoryLayout{};
+  write_header(memory, {.magic = ActuatorMemoryLayout::kMagic,
+                        .version = ActuatorMemoryLayout::kVersion,
+                        .node_count = 0,
+                        .byte_size = byte_size()});
+}
+
+ActuatorMemoryWriter::ActuatorMemoryWriter(std::span<std::byte> memory)
+    : layout_{reinterpret_cast<ActuatorMemoryLayout*>(memory.data())} {
+  checked_header(memory, ActuatorMemoryLayout::kMagic, ActuatorMemoryLayout::kVersion);
+}
+
+void ActuatorMemoryWriter::publish(const ActuatorCommand& command) noexcept {
+  layout_->command.store(command);
+}
+
+ActuatorMemoryReader::ActuatorMemoryReader(std::span<const std::byte> memory)
+    : layout_{reinterpret_cast<const ActuatorMemoryLayout*>(memory.data())} {
+  checked_header(memory, ActuatorMemoryLayout::kMagic, ActuatorMemoryLayout::kVersion);
+}
+
+std::optional<ActuatorCommand> ActuatorMemoryReader::command() const noexcept {
+  return layout_->command.load();
+}
+
+}  // namespace cuscus::shm

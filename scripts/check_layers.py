@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Checks that #include lines follow the dependency picture in docs/architecture.md."""
+
+import pathlib
+import re
+import sys
+
+# What each folder may include besides itself. The longest matching folder owns a file.
+ALLOWED = {
+    "common/units": set(),
+    "common/posix": set(),
+    "common/log": set(),
+    "common/random": set(),
+    "common/geometry": {"common/units"},
+    "common/scenario": {"common/units", "common/geometry"},
+    "proto": set(),
+    "common/ipc": {"common/posix", "proto"},
+}
+SHARED = set(ALLOWED)
+PURE = {"common/units", "common/random", "common/geometry", "common/scenario"}
+ALLOWED |= {
+    "world/dynamics": PURE,
+    "world/sensors": PURE | {"world/dynamics"},
+    "netsim/channel": PURE,
+    "netsim/phy": PURE | {"netsim/channel"},
+    "netsim/mac": PURE | {"netsim/phy", "netsim/kernel"},
+    "netsim/kernel": PURE,
+    "netsim/air": PURE | {"netsim/kernel", "netsim/channel", "netsim/phy", "netsim/mac"},
+    "uav-agent/flight": PURE,
+    "uav-agent/missions": PURE | {"uav-agent/flight"},
+    "ground-station/core": PURE | {"proto"},
+    "orchestrator/plan": PURE | {"proto"},
+    "orchestrator/results": PURE | {"proto", "orchestrator/plan"},
+    "orchestrator/netlink": {"common/posix"},
+}
+for component in ("world", "netsim", "uav-agent", "ground-station", "orchestrator"):
+    # The rest of a component (app/, *_main.cc) may use its own folders, and no other component's.
+    ALLOWED[component] = SHARED | {m for m in ALLOWED if m.startswith(component + "/")}
+ALLOWED["tests"] = set(ALLOWED)
+
+INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
+
+
+def owner_of(path: str) -> str | None:
+    """The folder that owns a path given from the root, or None for a path outside all of them."""
+    owners = [folder for folder in ALLOWED if path.startswith(folder + "/")]
+    return max(owners, key=len, default=None)
+
+
+def violations(root: pathlib.Path):
+    for top in sorted({folder.split("/")[0] for folder in ALLOWED}):
+        for file in sorted((root / top).rglob("*.*")):
+            if file.suffix not in {".h", ".cc"}:
+                continue
+            path = file.relative_to(root).as_posix()
+            owner = owner_of(path)
+            if owner is None:
+                yield f"{path}: belongs to no folder that scripts/check_layers.py knows"
+                continue
+            for included in INCLUDE.findall(file.read_text(encoding="utf-8")):
+                if owner_of(included) not in ALLOWED[owner] | {owner}:
+                    yield f'{path}: {owner} may not include "{included}"'
+
+
+def main() -> int:
+    found = list(violations(pathlib.Path(sys.argv[1])))
+    for line in found:
+        print(line, file=sys.stderr)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
