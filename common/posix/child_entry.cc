@@ -120,6 +120,18 @@ void bind_to_parent(int parent_pidfd, int failure_fd) noexcept {
   }
 }
 
+/// As a program expects them, whatever its parent ignores or blocks. Handlers are gone already.
+void reset_signals() noexcept {
+  struct sigaction standard {};
+  standard.sa_handler = SIG_DFL;
+  for (int number = 1; number < NSIG; ++number) {
+    static_cast<void>(::sigaction(number, &standard, nullptr));  // SIGKILL and SIGSTOP refuse
+  }
+  sigset_t none;
+  ::sigemptyset(&none);
+  static_cast<void>(::sigprocmask(SIG_SETMASK, &none, nullptr));
+}
+
 void apply_limits(const ChildEntry& entry, int failure_fd) noexcept {
   for (const ChildEntry::Limit& limit : entry.limits) {
     // The enum type of glibc's first parameter is not in POSIX; prlimit64 takes an int.
@@ -137,9 +149,7 @@ void run_child_entry(const ChildEntry& entry) noexcept {
     fail(entry.failure_fd, ChildStep::kDescriptors);
   }
   const int parent_pidfd = move_up(entry.parent_pidfd, failure_fd);
-  sigset_t none;
-  ::sigemptyset(&none);
-  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  reset_signals();
   if (entry.own_session && ::setsid() < 0) {
     fail(failure_fd, ChildStep::kSession);
   }
