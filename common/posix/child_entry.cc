@@ -123,7 +123,7 @@ void reset_signals() noexcept {
   }
   sigset_t none;
   ::sigemptyset(&none);
-  static_cast<void>(::sigprocmask(SIG_SETMASK, &none, nullptr));
+  static_cast<void>(::pthread_sigmask(SIG_SETMASK, &none, nullptr));
 }
 
 void apply_limits(const ChildEntry& entry, int failure_fd) noexcept {

@@ -24,7 +24,7 @@ namespace cuscus::netlink {
 namespace {
 
 constexpr int kCreate = NLM_F_CREATE | NLM_F_EXCL;
-constexpr std::size_t kAnswerBytes = 32 * 1024;
+constexpr std::size_t kAnswerBytes = std::size_t{32} * 1024;
 
 /// Rounded up to netlink's alignment; the kernel's own macros mix signs.
 constexpr std::size_t aligned(std::size_t size) { return (size + 3U) & ~std::size_t{3}; }

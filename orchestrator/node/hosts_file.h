@@ -13,7 +13,8 @@ struct HostEntry {
   netlink::Ipv4Address address{};
 };
 
-/// The /etc/hosts of every node (hosts(5)): localhost, then the fleet.
+/// The /etc/hosts of every node (hosts(5)): localhost, by IPv4 since nodes have IPv6 only where the
+/// scenario asks, then the fleet.
 [[nodiscard]] std::string hosts_file(std::span<const HostEntry> entries);
 
 }  // namespace cuscus::node

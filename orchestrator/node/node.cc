@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <filesystem>
 #include <stdexcept>
@@ -62,7 +63,10 @@ Node::Node(NodeNetwork network, const InitProgram& program, ipc::ControlSocket o
 
 void Node::await_ready(std::chrono::milliseconds limit) {
   pollfd readable{.fd = control_.fd(), .events = POLLIN, .revents = 0};
-  if (::poll(&readable, 1, static_cast<int>(limit.count())) <= 0) {
+  int ready = -1;
+  while ((ready = ::poll(&readable, 1, static_cast<int>(limit.count()))) < 0 && errno == EINTR) {
+  }
+  if (ready <= 0) {
     throw std::runtime_error{network_.name + ": its init was not ready in " +
                              std::to_string(limit.count()) + " ms"};
   }

@@ -11,6 +11,7 @@
 
 #include "orchestrator/netlink/send_stamps.h"
 #include "orchestrator/node/fleet.h"
+#include "tests/support/namespace_watch.h"
 #include "tests/support/test_fleet.h"
 
 namespace {
@@ -36,11 +37,21 @@ void measure(std::size_t count, cuscus::node::Attachment attachment,
   std::optional<cuscus::node::Fleet> fleet{std::in_place, networks, options};
   const double set_up_s = seconds_since(start);
   const double inits_s = std::chrono::duration<double>{inits_started - start}.count();
+  cuscus::test::NamespaceWatch watch;
+  watch.add(fleet->fabric().network_namespace().fd());
+  for (const auto& node : fleet->nodes()) {
+    watch.add(node.network_namespace().fd());
+  }
   start = Clock::now();
   fleet.reset();
-  std::printf("%-7s %5zu nodes  set-up %6.3f s (inits started %6.3f s)  tear-down %6.3f s\n",
-              attachment == cuscus::node::Attachment::kBridge ? "bridge" : "direct", count,
-              set_up_s, inits_s, seconds_since(start));
+  const double tear_down_s = seconds_since(start);
+  // Or it would slow the next set-up down.
+  static_cast<void>(watch.await_end(std::chrono::minutes{1}));
+  std::printf(
+      "%-7s %5zu nodes  set-up %6.3f s (inits started %6.3f s)  tear-down %6.3f s (namespaces gone "
+      "%6.3f s)\n",
+      attachment == cuscus::node::Attachment::kBridge ? "bridge" : "direct", count, set_up_s,
+      inits_s, tear_down_s, seconds_since(start));
   std::fflush(stdout);
 }
 

@@ -15,11 +15,15 @@
 namespace cuscus::test {
 namespace {
 
-constexpr std::size_t kBufferBytes = 32 * 1024;
+constexpr std::size_t kBufferBytes = std::size_t{32} * 1024;
 
 posix::UniqueFd open_listener() {
   posix::UniqueFd socket{posix::check(
       "open an rtnetlink socket", ::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE))};
+  // A thousand ends may come at once.
+  const int bytes = 16 << 20;
+  posix::check("SO_RCVBUFFORCE",
+               ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes));
   const int group = RTNLGRP_NSID;
   posix::check(
       "listen for namespace ends",

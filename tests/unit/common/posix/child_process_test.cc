@@ -117,11 +117,11 @@ TEST_CASE("a child starts with the signals that programs expect") {
   sigset_t blocked;
   ::sigemptyset(&blocked);
   ::sigaddset(&blocked, SIGTERM);
-  ::sigprocmask(SIG_BLOCK, &blocked, nullptr);
+  ::pthread_sigmask(SIG_BLOCK, &blocked, nullptr);
 
   const auto status = output_of("exec grep -E 'SigBlk|SigIgn' /proc/self/status");
 
-  ::sigprocmask(SIG_UNBLOCK, &blocked, nullptr);
+  ::pthread_sigmask(SIG_UNBLOCK, &blocked, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
   CHECK(status == "SigBlk:\t0000000000000000\nSigIgn:\t0000000000000000\n");
 }

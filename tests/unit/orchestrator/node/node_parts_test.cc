@@ -15,7 +15,7 @@ TEST_CASE("the table of names has localhost, then the fleet") {
 
   CHECK(hosts_file(entries) ==
         "127.0.0.1\tlocalhost\n"
-        "::1\tlocalhost ip6-localhost ip6-loopback\n"
+        "::1\tip6-localhost ip6-loopback\n"
         "10.0.0.4\tuav3\n"
         "10.0.0.200\tgcs\n");
 }
