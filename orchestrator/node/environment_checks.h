@@ -33,7 +33,10 @@ enum class CgroupLayout { kNone, kVersion1, kHybrid, kVersion2 };
 struct KernelVersion {
   unsigned major{};
   unsigned minor{};
-  friend auto operator<=>(const KernelVersion&, const KernelVersion&) = default;
+  friend bool operator==(const KernelVersion&, const KernelVersion&) = default;
+  friend constexpr bool operator<(const KernelVersion& a, const KernelVersion& b) noexcept {
+    return a.major != b.major ? a.major < b.major : a.minor < b.minor;
+  }
 };
 [[nodiscard]] KernelVersion parse_kernel_version(std::string_view release);
 
