@@ -214,7 +214,7 @@ void FleetSimulation::publish_imu(Vehicle& vehicle, const RigidBodyState& body,
                                   std::uint64_t reading) {
   const ImuSample sample = vehicle.imu.sample(
       {.angular_rate_B_radps = body.w_WB_B_radps,
-       .specific_force_B_mps2 = vehicle.plant->specific_force_B_mps2(vehicle.index)},
+       .specific_force_B_mps2 = vehicle.plant->specific_force_mps2(vehicle.index)},
       reading);
   vehicle.sensors.publish(
       shm::ImuReading{.sim_time_ns = to_ns(time()),

@@ -13,8 +13,8 @@ Eigen::Quaterniond turned_over(const Eigen::Quaterniond& rotation) {
 }
 
 /// Aerodynamic force as FL-AIR has it: sideways it brakes, along z it pushes.
-Eigen::Vector3d air_force_N(const MultirotorParameters& parameters,
-                            const Eigen::Vector3d& velocity_mps) {
+Eigen::Vector3d air_force(const MultirotorParameters& parameters,
+                          const Eigen::Vector3d& velocity_mps) {
   return {-parameters.drag_lateral_Nspm * velocity_mps.x(),
           -parameters.drag_lateral_Nspm * velocity_mps.y(),
           +parameters.drag_vertical_Nspm * velocity_mps.z()};
@@ -89,7 +89,7 @@ void FlairFleet::step(Vehicle& v) const {
   v.attitude.normalize();
 
   const Eigen::Vector3d force_N = v.attitude * Eigen::Vector3d{0.0, 0.0, -v.thrust_N} +
-                                  air_force_N(p, v.velocity_mps) +
+                                  air_force(p, v.velocity_mps) +
                                   Eigen::Vector3d{0.0, 0.0, p.mass_kg * settings_.gravity_mps2};
   Eigen::Vector3d next = h * h / p.mass_kg * force_N + 2.0 * v.position_m - v.previous_position_m;
   v.on_ground = next.z() >= 0.0;
@@ -106,15 +106,14 @@ void FlairFleet::step(Vehicle& v) const {
 
 bool FlairFleet::on_ground(std::size_t vehicle) const { return vehicles_[vehicle].on_ground; }
 
-Eigen::Vector3d FlairFleet::specific_force_B_mps2(std::size_t vehicle) const {
+Eigen::Vector3d FlairFleet::specific_force_mps2(std::size_t vehicle) const {
   const Vehicle& v = vehicles_[vehicle];
   if (v.on_ground) {
     return turned_over(v.attitude.conjugate() * Eigen::Vector3d{0.0, 0.0, -settings_.gravity_mps2});
   }
   const Eigen::Vector3d thrust_N{0.0, 0.0, -v.thrust_N};
-  return turned_over(
-      (thrust_N + v.attitude.conjugate() * air_force_N(v.parameters, v.velocity_mps)) /
-      v.parameters.mass_kg);
+  return turned_over((thrust_N + v.attitude.conjugate() * air_force(v.parameters, v.velocity_mps)) /
+                     v.parameters.mass_kg);
 }
 
 }  // namespace cuscus::world

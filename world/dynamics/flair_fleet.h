@@ -38,7 +38,7 @@ class FlairFleet final : public Plant {
   void set_commands(std::size_t vehicle, const RotorCommands& commands) override;
   void step() override;
   [[nodiscard]] bool on_ground(std::size_t vehicle) const override;
-  [[nodiscard]] Eigen::Vector3d specific_force_B_mps2(std::size_t vehicle) const override;
+  [[nodiscard]] Eigen::Vector3d specific_force_mps2(std::size_t vehicle) const override;
 
  private:
   /// All vectors in FL-AIR's frames.

@@ -46,7 +46,7 @@ class Plant {
   [[nodiscard]] virtual bool on_ground(std::size_t vehicle) const = 0;
 
   /// All forces but gravity, per mass, in the body frame: what an accelerometer feels [m/s²].
-  [[nodiscard]] virtual Eigen::Vector3d specific_force_B_mps2(std::size_t vehicle) const = 0;
+  [[nodiscard]] virtual Eigen::Vector3d specific_force_mps2(std::size_t vehicle) const = 0;
 };
 
 }  // namespace cuscus::world

@@ -223,7 +223,7 @@ bool QuadrotorFleet::on_ground(std::size_t vehicle) const {
   return blocks_[vehicle / kLanes].on_ground[vehicle % kLanes] != 0.0;
 }
 
-Eigen::Vector3d QuadrotorFleet::specific_force_B_mps2(std::size_t vehicle) const {
+Eigen::Vector3d QuadrotorFleet::specific_force_mps2(std::size_t vehicle) const {
   const RigidBodyState body = state(vehicle);
   const Block& block = blocks_[vehicle / kLanes];
   const std::size_t lane = vehicle % kLanes;

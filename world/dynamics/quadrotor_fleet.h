@@ -40,7 +40,7 @@ class QuadrotorFleet final : public Plant {
   void set_commands(std::size_t vehicle, const RotorCommands& commands) override;
   void step() override;
   [[nodiscard]] bool on_ground(std::size_t vehicle) const override;
-  [[nodiscard]] Eigen::Vector3d specific_force_B_mps2(std::size_t vehicle) const override;
+  [[nodiscard]] Eigen::Vector3d specific_force_mps2(std::size_t vehicle) const override;
 
  private:
   static constexpr std::size_t kLanes = 8;

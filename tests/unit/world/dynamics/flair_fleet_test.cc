@@ -63,8 +63,8 @@ TEST_CASE("FL-AIR's vertical drag pushes, its lateral drag brakes") {
   CHECK((theirs.state(0).v_WB_W_mps.z() + 3.0) / kStep_s == Approx(-1.5).epsilon(1e-5));
   CHECK((ours.state(0).v_WB_W_mps.z() + 3.0) / kStep_s == Approx(+1.5).epsilon(1e-2));
   CHECK((theirs.state(0).v_WB_W_mps.x() - 2.0) / kStep_s == Approx(-0.8 / 1.2).epsilon(1e-5));
-  CHECK(theirs.specific_force_B_mps2(0).z() < 0.0);
-  CHECK(ours.specific_force_B_mps2(0).z() > 0.0);
+  CHECK(theirs.specific_force_mps2(0).z() < 0.0);
+  CHECK(ours.specific_force_mps2(0).z() > 0.0);
 }
 
 TEST_CASE("FL-AIR's attitude turns by the new rates, its thrust by the new attitude") {

@@ -26,7 +26,7 @@ TEST_CASE("a vehicle on the ground rests until its thrust exceeds its weight") {
   CHECK(fleet.state(0).p_WB_m == Eigen::Vector3d{4.0, 5.0, 0.0});
   CHECK(fleet.state(0).v_WB_W_mps.isZero(0.0));
   CHECK(fleet.state(0).w_WB_B_radps.isZero(0.0));
-  CHECK(fleet.specific_force_B_mps2(0) == Eigen::Vector3d{0.0, 0.0, 9.81});
+  CHECK(fleet.specific_force_mps2(0) == Eigen::Vector3d{0.0, 0.0, 9.81});
 }
 
 TEST_CASE("a vehicle takes off when its thrust exceeds its weight") {

@@ -88,7 +88,7 @@ TEST_CASE("the hover command holds the X4 where it is, whatever its mass") {
 
   CHECK(u == Approx(command).margin(6e-6));
   CHECK(fleet.state(0).p_WB_m.z() == Approx(10.0).margin(1e-10));
-  CHECK(fleet.specific_force_B_mps2(0).z() == Approx(9.81).epsilon(1e-12));
+  CHECK(fleet.specific_force_mps2(0).z() == Approx(9.81).epsilon(1e-12));
 }
 
 TEST_CASE("at the same command a heavier vehicle climbs more slowly") {
@@ -259,12 +259,12 @@ TEST_CASE("an accelerometer feels drag, and nothing in free fall") {
   flying.q_WB = Eigen::AngleAxisd{std::numbers::pi / 2, Eigen::Vector3d::UnitZ()};  // nose north
   fleet.set_state(0, flying);
 
-  CHECK(fleet.specific_force_B_mps2(0).norm() == 0.0);
+  CHECK(fleet.specific_force_mps2(0).norm() == 0.0);
 
   flying.v_WB_W_mps = {3.0, 0.0, 0.0};  // to its right
   fleet.set_state(0, flying);
   // Drag pushes west, which is the vehicle's left, by 0.4 * 3 / 1.2 m/s^2.
-  CHECK((fleet.specific_force_B_mps2(0) - Eigen::Vector3d{0.0, 1.0, 0.0}).norm() < 1e-12);
+  CHECK((fleet.specific_force_mps2(0) - Eigen::Vector3d{0.0, 1.0, 0.0}).norm() < 1e-12);
 }
 
 TEST_CASE("parameters that no vehicle has are refused by name") {
