@@ -11,16 +11,18 @@ ALLOWED = {
     "common/posix": set(),
     "common/log": set(),
     "common/random": set(),
+    "common/statistics": set(),
     "common/geometry": {"common/units"},
     "common/scenario": {"common/units", "common/geometry"},
     "proto": set(),
     "common/ipc": {"common/posix", "proto"},
 }
 SHARED = set(ALLOWED)
-PURE = {"common/units", "common/random", "common/geometry", "common/scenario"}
+PURE = {"common/units", "common/random", "common/statistics", "common/geometry", "common/scenario"}
 ALLOWED |= {
     "world/dynamics": PURE,
     "world/sensors": PURE | {"world/dynamics"},
+    "world/actuation": PURE | {"proto"},
     "netsim/channel": PURE,
     "netsim/phy": PURE | {"netsim/channel"},
     "netsim/mac": PURE | {"netsim/phy", "netsim/kernel"},
