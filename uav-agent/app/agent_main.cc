@@ -48,8 +48,8 @@ void fly(sdk::SimSession& session, agent::Agent& agent) {
   }
 }
 
-void run_session(ipc::ChildSession child) {
-  sdk::SimSession session{std::move(child)};
+void run_session(ipc::ChildSession& child) {
+  sdk::SimSession session{child};
   const auto& configuration = session.configuration();
   if (configuration.neighbours() == proto::AgentConfiguration::NEIGHBOURS_MOTION_CAPTURE &&
       session.vehicle().fleet() == nullptr) {
@@ -73,12 +73,25 @@ void run_session(ipc::ChildSession child) {
   session.finish(report);
 }
 
+/// Tells the orchestrator why, unless it is what failed.
+void run_child(ipc::ChildSession& child) {
+  try {
+    run_session(child);
+  } catch (const ipc::PeerError&) {
+    throw;
+  } catch (const std::exception& error) {
+    child.fail(error.what());
+    throw;
+  }
+}
+
 }  // namespace
 
 int main() {
   log::start("agent");
   try {
-    run_session(ipc::ChildSession::from_environment());
+    auto child = ipc::ChildSession::from_environment();
+    run_child(child);
     return EXIT_SUCCESS;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());

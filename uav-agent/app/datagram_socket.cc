@@ -44,9 +44,6 @@ std::optional<std::span<const std::byte>> DatagramSocket::try_receive(
     if (received >= 0) {
       return std::span<const std::byte>{buffer.first(static_cast<std::size_t>(received))};
     }
-    if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      return std::nullopt;
-    }
     // An ICMP error of an earlier send or an interface that went down: what waits behind it counts.
     if (errno != EINTR && errno != ECONNREFUSED && errno != ENETDOWN && errno != EHOSTUNREACH &&
         errno != ENETUNREACH) {

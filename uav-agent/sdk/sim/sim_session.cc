@@ -29,8 +29,8 @@ SimVehicle::Memories mapped(ipc::ChildSession& session, std::uint32_t node) {
 
 }  // namespace
 
-SimSession::SimSession(ipc::ChildSession session)
-    : session_{std::move(session)},
+SimSession::SimSession(ipc::ChildSession& session)
+    : session_{session},
       configuration_{agent_configuration(session_)},
       vehicle_{mapped(session_, configuration_.node())} {}
 

@@ -11,7 +11,8 @@ namespace cuscus::sdk {
 
 /// A flying program's place in a simulated run, from its start to its report:
 ///
-///   SimSession session{ipc::ChildSession::from_environment()};
+///   auto child = ipc::ChildSession::from_environment();
+///   SimSession session{child};
 ///   ... open sockets, as session.configuration() says ...
 ///   if (session.wait_for_start()) {
 ///     while (!session.stop_requested()) { ...; session.beat("flying"); }
@@ -21,8 +22,8 @@ namespace cuscus::sdk {
 /// Everything throws ipc::PeerError once the orchestrator is gone.
 class SimSession {
  public:
-  /// Waits for the configuration and maps the vehicle's memories.
-  explicit SimSession(ipc::ChildSession session);
+  /// Waits for the configuration and maps the vehicle's memories. `session` outlives this object.
+  explicit SimSession(ipc::ChildSession& session);
 
   [[nodiscard]] const proto::AgentConfiguration& configuration() const { return configuration_; }
   [[nodiscard]] Vehicle& vehicle() { return vehicle_; }
@@ -37,7 +38,7 @@ class SimSession {
   void finish(const proto::AgentReport& report);
 
  private:
-  ipc::ChildSession session_;
+  ipc::ChildSession& session_;
   proto::AgentConfiguration configuration_;
   SimVehicle vehicle_;
 };
