@@ -30,6 +30,10 @@ ALLOWED |= {
     "netsim/air": PURE | {"netsim/kernel", "netsim/channel", "netsim/phy", "netsim/mac"},
     "uav-agent/flight": PURE,
     "uav-agent/missions": PURE | {"uav-agent/flight"},
+    "uav-agent/air": PURE | {"proto", "uav-agent/flight", "uav-agent/missions"},
+    "uav-agent/sdk": PURE | {"uav-agent/flight"},
+    "uav-agent/sdk/sim": PURE
+    | {"common/posix", "common/ipc", "proto", "uav-agent/flight", "uav-agent/sdk"},
     "ground-station/core": PURE | {"proto"},
     "orchestrator/plan": PURE | {"proto"},
     "orchestrator/results": PURE | {"proto", "orchestrator/plan"},
