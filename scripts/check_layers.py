@@ -37,7 +37,9 @@ ALLOWED |= {
     "ground-station/core": PURE | {"proto"},
     "orchestrator/plan": PURE | {"proto"},
     "orchestrator/results": PURE | {"proto", "orchestrator/plan"},
-    "orchestrator/netlink": {"common/posix"},
+    "orchestrator/netlink": {"common/posix", "proto"},
+    "orchestrator/init": {"common/posix", "common/ipc", "proto"},
+    "orchestrator/node": {"common/posix", "common/ipc", "proto", "orchestrator/netlink"},
 }
 for component in ("world", "netsim", "uav-agent", "ground-station", "orchestrator"):
     # The rest of a component (app/, *_main.cc) may use its own folders, and no other component's.
