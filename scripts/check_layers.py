@@ -30,7 +30,7 @@ ALLOWED |= {
     "uav-agent/missions": PURE | {"uav-agent/flight"},
     "ground-station/core": PURE | {"proto"},
     "orchestrator/plan": PURE | {"proto"},
-    "orchestrator/results": PURE | {"proto", "orchestrator/plan"},
+    "orchestrator/results": PURE | {"proto", "common/posix", "orchestrator/plan"},
     "orchestrator/netlink": {"common/posix"},
 }
 for component in ("world", "netsim", "uav-agent", "ground-station", "orchestrator"):
