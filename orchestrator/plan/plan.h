@@ -104,6 +104,12 @@ struct Plan {
 /// The plan for a person, in lines that end with '\n'.
 [[nodiscard]] std::string to_text(const Plan& plan);
 
+/// "uav", "fixed", "ground-station"
+[[nodiscard]] std::string name_of(NodeRole role);
+
+/// "agent", "ground-station", "command"
+[[nodiscard]] std::string name_of(ProgramKind kind);
+
 /// "02:63:75:73:00:01"
 [[nodiscard]] std::string mac_text(const std::array<std::uint8_t, 6>& mac);
 

@@ -16,32 +16,8 @@ std::string text(scenario::Duration duration) {
   return scenario::format_quantity(static_cast<double>(duration.count()), scenario::kTime);
 }
 
-std::string role_name(NodeRole role) {
-  switch (role) {
-    case NodeRole::kUav:
-      return "uav";
-    case NodeRole::kFixed:
-      return "fixed";
-    case NodeRole::kGroundStation:
-      return "ground-station";
-  }
-  return {};
-}
-
-std::string kind_name(ProgramKind kind) {
-  switch (kind) {
-    case ProgramKind::kAgent:
-      return "agent";
-    case ProgramKind::kGroundStation:
-      return "ground-station";
-    case ProgramKind::kCommand:
-      return "command";
-  }
-  return {};
-}
-
 Json json_of(const Program& program) {
-  return {{"kind", kind_name(program.kind)},
+  return {{"kind", name_of(program.kind)},
           {"arguments", program.arguments},
           {"environment", program.environment},
           {"capabilities", program.capabilities},
@@ -60,7 +36,7 @@ Json json_of(const NodePlan& node) {
     links["veth"] = node.veth;
   }
   return {{"index", node.index},          {"name", node.name},
-          {"role", role_name(node.role)}, {"ip", node.ip},
+          {"role", name_of(node.role)},   {"ip", node.ip},
           {"mac", mac_text(node.mac)},    {"links", links},
           {"start_m", node.p_WB_start_m}, {"programs", programs}};
 }
@@ -95,6 +71,30 @@ void append_nodes(const Plan& plan, std::string& out) {
 }
 
 }  // namespace
+
+std::string name_of(NodeRole role) {
+  switch (role) {
+    case NodeRole::kUav:
+      return "uav";
+    case NodeRole::kFixed:
+      return "fixed";
+    case NodeRole::kGroundStation:
+      return "ground-station";
+  }
+  return {};
+}
+
+std::string name_of(ProgramKind kind) {
+  switch (kind) {
+    case ProgramKind::kAgent:
+      return "agent";
+    case ProgramKind::kGroundStation:
+      return "ground-station";
+    case ProgramKind::kCommand:
+      return "command";
+  }
+  return {};
+}
 
 Json to_json(const Plan& plan) {
   Json nodes = Json::array();
