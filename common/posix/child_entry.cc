@@ -92,14 +92,8 @@ bool keep_only_ambient(CapabilityMask ambient) noexcept {
 }
 
 void drop_rights(const ChildEntry& entry, int failure_fd) noexcept {
-  // Before CAP_SETPCAP is gone. What the kernel does not know, or a parent without that capability,
-  // is no error: PR_SET_NO_NEW_PRIVS below already keeps exec from giving anything back.
-  for (int number = 0; number < 64; ++number) {
-    if ((entry.ambient & capability_bit(number)) == 0) {
-      static_cast<void>(
-          ::prctl(PR_CAPBSET_DROP, static_cast<unsigned long>(number), 0UL, 0UL, 0UL));
-    }
-  }
+  // The bounding set stays: PR_SET_NO_NEW_PRIVS already keeps every exec from giving anything back,
+  // while without its bits the kernel refuses to execute files that ask for them, as ping does.
   if (entry.switches_identity && !switch_identity(entry)) {
     fail(failure_fd, ChildStep::kIdentity);
   }
