@@ -14,7 +14,7 @@ namespace cuscus::world {
 namespace {
 
 constexpr std::int64_t kLookPeriod_ns = 20'000'000;
-constexpr std::int64_t kBeatPeriod_ns = 1'000'000'000;
+constexpr std::int64_t kBeatPeriod_ns = 500'000'000;
 
 /// The conversation with the orchestrator during the run.
 class Heartbeat {

@@ -79,7 +79,7 @@ proto::WorldConfiguration one_vehicle_and_a_station() {
   return configuration;
 }
 
-TEST_CASE("a world that is never late runs every step, beats every second and reports") {
+TEST_CASE("a world that is never late runs every step, beats at least every second and reports") {
   Orchestrator orchestrator;
   ScriptedHost host;
   orchestrator.send_configuration(one_vehicle_and_a_station());
