@@ -10,7 +10,8 @@ Component::Component(boost::asio::io_context& loop, std::string name, ipc::Contr
     : name_{std::move(name)},
       on_change_{std::move(on_change)},
       last_heard_{std::chrono::steady_clock::now()},
-      channel_{loop, std::move(socket),
+      channel_{loop,
+               std::move(socket),
                {.on_message = [this](const proto::Envelope& envelope) { handle(envelope); },
                 .on_closed =
                     [this](const std::string&) {

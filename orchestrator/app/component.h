@@ -26,7 +26,8 @@ class Component {
             std::function<void()> on_change);
 
   /// Gives descriptors, as many messages as they need, then the configuration.
-  void configure(const std::vector<GivenDescriptor>& descriptors, const proto::Configure& configure);
+  void configure(const std::vector<GivenDescriptor>& descriptors,
+                 const proto::Configure& configure);
   void start(std::int64_t start_monotonic_ns);
   void stop(const std::string& reason);
 

@@ -17,9 +17,9 @@
 namespace cuscus::orchestrator {
 namespace {
 
+using proto::Descriptors;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-using proto::Descriptors;
 
 constexpr milliseconds kReadyLimit{20'000};
 /// From Start to SimTime 0: every child has read its Start by then.
@@ -50,19 +50,25 @@ std::vector<std::uint32_t> vehicles_of(const Plan& plan) {
   return vehicles;
 }
 
+netlink::Ipv4Address address_of(const std::string& text) {
+  const std::uint32_t number = scenario::parse_ipv4(text).value();
+  return {static_cast<std::uint8_t>(number >> 24U), static_cast<std::uint8_t>(number >> 16U),
+          static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number)};
+}
+
 std::vector<node::NodeNetwork> networks_of(const Plan& plan) {
   std::vector<node::NodeNetwork> networks;
   for (const auto& node : plan.nodes) {
-    networks.push_back(
-        {.index = node.index,
-         .name = node.name,
-         .mac = {node.mac},
-         .address = {.address = scenario::parse_ipv4(node.ip).value(),
-                     .prefix_length = static_cast<std::uint8_t>(plan.subnet.prefix_length)},
-         .mtu_bytes = plan.mtu_bytes,
-         .attachment = plan.attach == scenario::Attach::kBridge ? node::Attachment::kBridge
-                                                                : node::Attachment::kDirect,
-         .ipv6 = plan.ipv6});
+    networks.push_back({.index = node.index,
+                        .name = node.name,
+                        .mac = node.mac,
+                        .address = {.address = address_of(node.ip),
+                                    .length = static_cast<std::uint8_t>(plan.subnet.prefix_length)},
+                        .mtu_bytes = plan.mtu_bytes,
+                        .attachment = plan.attach == scenario::Attach::kBridge
+                                          ? node::Attachment::kBridge
+                                          : node::Attachment::kDirect,
+                        .ipv6 = plan.ipv6});
   }
   return networks;
 }
@@ -170,15 +176,14 @@ void LiveRun::build_nodes() {
   }
   std::vector<node::HostEntry> hosts;
   fleet_ = std::make_unique<node::Fleet>(
-      networks_of(plan_),
-      node::FleetOptions{.init_path = settings_.programs / "cuscus-init",
-                         .static_neighbours = plan_.static_neighbours,
-                         .extra_hosts = std::move(hosts),
-                         .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
-                         .on_step = [this](std::string_view) {
-                           loop_.poll();
-                           check_trouble();
-                         }});
+      networks_of(plan_), node::FleetOptions{.init_path = settings_.programs / "cuscus-init",
+                                             .static_neighbours = plan_.static_neighbours,
+                                             .extra_hosts = std::move(hosts),
+                                             .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
+                                             .on_step = [this](std::string_view) {
+                                               loop_.poll();
+                                               check_trouble();
+                                             }});
   if (on_nodes_built_) {
     on_nodes_built_();
   }
@@ -209,16 +214,16 @@ void LiveRun::start_netsim() {
 }
 
 void LiveRun::start_programs() {
-  crew_ = std::make_unique<NodeCrew>(loop_, *fleet_,
-                                     NodeCrew::Surroundings{.plan = plan_,
-                                                            .memories = memories_,
-                                                            .rights = settings_.rights,
-                                                            .programs = settings_.programs,
-                                                            .logs = settings_.logs,
-                                                            .run_id = settings_.run_id,
-                                                            .page_listener =
-                                                                settings_.page_listener.get()},
-                                     [] {});
+  crew_ = std::make_unique<NodeCrew>(
+      loop_, *fleet_,
+      NodeCrew::Surroundings{.plan = plan_,
+                             .memories = memories_,
+                             .rights = settings_.rights,
+                             .programs = settings_.programs,
+                             .logs = settings_.logs,
+                             .run_id = settings_.run_id,
+                             .page_listener = settings_.page_listener.get()},
+      [] {});
   crew_->launch_own();
   await("the agents to be ready", kReadyLimit, [&] { return crew_->own_are_ready(); });
   settings_.page_listener.reset();
@@ -258,9 +263,8 @@ void LiveRun::stop_all() {
       service->component().stop(reason);
     }
   }
-  settle(kServiceStopLimit, [&] {
-    return (!netsim_ || netsim_->status()) && (!world_ || world_->status());
-  });
+  settle(kServiceStopLimit,
+         [&] { return (!netsim_ || netsim_->status()) && (!world_ || world_->status()); });
 }
 
 void LiveRun::watch_signals() {
@@ -354,8 +358,7 @@ std::string LiveRun::progress_text() const {
   return text;
 }
 
-posix::ChildSpecification LiveRun::service_specification(const char* program,
-                                                         std::uint32_t service,
+posix::ChildSpecification LiveRun::service_specification(const char* program, std::uint32_t service,
                                                          int output_fd) const {
   const uid_t uid = settings_.rights == node::Rights::kRoot ? node::service_uid(service) : 0;
   return {.arguments = {settings_.programs / program},

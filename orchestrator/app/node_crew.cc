@@ -22,7 +22,8 @@ using boost::asio::posix::stream_descriptor;
 
 posix::UniqueFd open_log(const std::filesystem::path& path) {
   return posix::UniqueFd{posix::check(
-      "open " + path.native(), ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644))};
+      "open " + path.native(),
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644))};
 }
 
 std::optional<std::uint32_t> number_in_environment(const char* name) {
@@ -112,11 +113,12 @@ void NodeCrew::note_exit(const proto::Exited& exited) {
   }
   NodeProgram& program = programs_[exited.program()];
   program.ended_at_s = sim_time_s_ ? sim_time_s_() : 0.0;
+  program.ended_early = !stopping_;
   if (!exited.error().empty()) {
     program.error = exited.error();
   } else {
-    program.status = posix::ExitStatus{.exit_code = exited.exit_code(),
-                                       .signal_number = exited.signal_number()};
+    program.status =
+        posix::ExitStatus{.exit_code = exited.exit_code(), .signal_number = exited.signal_number()};
   }
   const bool failed = !program.status || !program.status->succeeded();
   const bool own = program.plan->kind != ProgramKind::kCommand;

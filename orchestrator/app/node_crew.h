@@ -30,6 +30,7 @@ struct NodeProgram {
   std::optional<posix::ExitStatus> status;  ///< How it ended.
   std::string error;                        ///< Why it could not be started.
   double ended_at_s{0.0};                   ///< SimTime.
+  bool ended_early{false};                  ///< Before anybody asked it to.
   bool killed{false};                       ///< At the end of the run, for not stopping.
 
   [[nodiscard]] bool has_ended() const { return status.has_value() || !error.empty(); }

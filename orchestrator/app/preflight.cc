@@ -41,7 +41,8 @@ std::filesystem::path check_own_programs() {
   for (const char* const program :
        {"cuscus-init", "cuscus-netsim", "cuscus-world", "cuscus-agent", "cuscus-gcs"}) {
     if (::access((folder / program).c_str(), X_OK) != 0) {
-      throw UsageError{fmt::format("{} is missing beside {}", program, (folder / "cuscus").native())};
+      throw UsageError{
+          fmt::format("{} is missing beside {}", program, (folder / "cuscus").native())};
     }
   }
   return folder;
@@ -49,11 +50,9 @@ std::filesystem::path check_own_programs() {
 
 void check_open_files(const Plan& plan) {
   const std::uint64_t needed = node::open_files_for(plan.nodes.size());
-  try {
-    posix::require_open_files(needed);
-  } catch (const std::exception& error) {
-    throw UsageError{fmt::format("{} nodes need {} open files: {}. Raise it with 'ulimit -n {}'",
-                                 plan.nodes.size(), needed, error.what(), needed)};
+  if (const auto allowed = posix::raise_open_file_limit(needed); allowed < needed) {
+    throw UsageError{fmt::format("{} nodes need {} open files, {} are allowed: 'ulimit -n {}'",
+                                 plan.nodes.size(), needed, allowed, needed)};
   }
 }
 
@@ -69,10 +68,10 @@ posix::UniqueFd listen_for_page(std::uint16_t port) {
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::listen(socket.get(), SOMAXCONN) != 0) {
-    throw UsageError{fmt::format(
-        "the page cannot listen on 127.0.0.1:{}: {}. Choose another port with "
-        "'--set ground_station.page.port=PORT' (1024 ... 65535), or '--no-page'",
-        port, std::strerror(errno))};  // NOLINT(concurrency-mt-unsafe): one thread
+    throw UsageError{
+        fmt::format("the page cannot listen on 127.0.0.1:{}: {}. Choose another port with "
+                    "'--set ground_station.page.port=PORT' (1024 ... 65535), or '--no-page'",
+                    port, std::strerror(errno))};  // NOLINT(concurrency-mt-unsafe): one thread
   }
   return socket;
 }

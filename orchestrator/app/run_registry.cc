@@ -31,9 +31,12 @@ json to_json(const RegisteredRun& run) {
   for (const auto& node : run.nodes) {
     nodes.push_back({{"name", node.name}, {"address", node.address}, {"init_pid", node.init_pid}});
   }
-  return {{"run_id", run.run_id},   {"pid", run.pid},
-          {"scenario", run.scenario}, {"results", run.results},
-          {"started_unix_s", run.started_unix_s}, {"nodes", nodes}};
+  return {{"run_id", run.run_id},
+          {"pid", run.pid},
+          {"scenario", run.scenario},
+          {"results", run.results},
+          {"started_unix_s", run.started_unix_s},
+          {"nodes", nodes}};
 }
 
 RegisteredRun from_json(const json& value) {
@@ -44,9 +47,8 @@ RegisteredRun from_json(const json& value) {
                     .started_unix_s = value.at("started_unix_s"),
                     .nodes = {}};
   for (const auto& node : value.at("nodes")) {
-    run.nodes.push_back({.name = node.at("name"),
-                         .address = node.at("address"),
-                         .init_pid = node.at("init_pid")});
+    run.nodes.push_back(
+        {.name = node.at("name"), .address = node.at("address"), .init_pid = node.at("init_pid")});
   }
   return run;
 }

@@ -20,10 +20,9 @@ Sampler::Sampler(const Plan& plan, const LiveRun& run, MetricsWriter& metrics)
     }
     const auto& circle = node.agent->circle();
     const auto& centre = circle.p_wc_centre_m();
-    formations_.push_back({.circle = {.p_WC_m = {centre.x(), centre.y(), centre.z()},
-                                      .radius_m = circle.radius_m()},
-                           .nodes = {node.agent->slot_nodes().begin(),
-                                     node.agent->slot_nodes().end()}});
+    formations_.push_back(
+        {.circle = {.p_WC_m = {centre.x(), centre.y(), centre.z()}, .radius_m = circle.radius_m()},
+         .nodes = {node.agent->slot_nodes().begin(), node.agent->slot_nodes().end()}});
   }
 }
 
@@ -67,7 +66,7 @@ void Sampler::measure(const Formation& formation) {
     members.push_back(
         {.p_WB_m = {state->p_WB_m[0], state->p_WB_m[1], state->p_WB_m[2]}, .slot = slot});
   }
-  const FormationError error = formation_error(formation.circle, members);
+  const FormationError error = orchestrator::formation_error(formation.circle, members);
   for (std::size_t slot = 0; slot < members.size(); ++slot) {
     errors_m_[formation.nodes[slot]] = error.error_m[slot];
   }

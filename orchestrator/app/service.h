@@ -16,8 +16,8 @@ class Service {
  public:
   /// Starts `specification`, whose control descriptor is filled in here.
   /// @throws std::system_error when it cannot be started.
-  Service(boost::asio::io_context& loop, std::string name,
-          posix::ChildSpecification specification, const std::function<void()>& on_change);
+  Service(boost::asio::io_context& loop, std::string name, posix::ChildSpecification specification,
+          const std::function<void()>& on_change);
 
   [[nodiscard]] Component& component() noexcept { return component_; }
   [[nodiscard]] const Component& component() const noexcept { return component_; }
@@ -31,8 +31,8 @@ class Service {
   [[nodiscard]] std::string trouble() const;
 
  private:
-  Service(boost::asio::io_context& loop, std::string name,
-          posix::ChildSpecification specification, const std::function<void()>& on_change,
+  Service(boost::asio::io_context& loop, std::string name, posix::ChildSpecification specification,
+          const std::function<void()>& on_change,
           std::pair<ipc::ControlSocket, ipc::ControlSocket> sockets);
 
   ProcessWatch watch_;

@@ -1,5 +1,5 @@
-// bench-beacon: an ordinary UDP program that broadcasts every period and counts what it hears. It is
-// the load of scripts/bench-live and knows nothing of the testbed.
+// bench-beacon: an ordinary UDP program that broadcasts every period and counts what it hears. It
+// is the load of scripts/bench-live and knows nothing of the testbed.
 //
 // usage: bench-beacon INDEX COUNT PERIOD_US PAYLOAD_BYTES DURATION_S BROADCAST_ADDRESS
 // prints: index sent received own_cpu_s, then the delay quantiles from sendto() to recv() [us]
@@ -114,10 +114,9 @@ class Beacon {
   void print() {
     std::sort(delays_us_.begin(), delays_us_.end());
     const auto quantile = [&](double q) {
-      return delays_us_.empty()
-                 ? 0.0
-                 : delays_us_[static_cast<std::size_t>(
-                       q * static_cast<double>(delays_us_.size() - 1))];
+      return delays_us_.empty() ? 0.0
+                                : delays_us_[static_cast<std::size_t>(
+                                      q * static_cast<double>(delays_us_.size() - 1))];
     };
     std::printf("%u %u %zu %.3f %.1f %.1f %.1f\n", options_.index, sequence_, delays_us_.size(),
                 cuscus::posix::process_cpu_s(), quantile(0.5), quantile(0.99), quantile(1.0));
@@ -125,7 +124,8 @@ class Beacon {
 
  private:
   void send() {
-    const Stamp stamp{.index = options_.index, .sequence = sequence_, .sent_ns = monotonic_now_ns()};
+    const Stamp stamp{
+        .index = options_.index, .sequence = sequence_, .sent_ns = monotonic_now_ns()};
     std::memcpy(datagram_.data(), &stamp, sizeof stamp);
     if (::sendto(socket_.get(), datagram_.data(), datagram_.size(), 0,
                  reinterpret_cast<const sockaddr*>(&to_), sizeof to_) >= 0) {

@@ -1,6 +1,6 @@
 // ns3_tap_bridge: N ad-hoc 802.11g stations in ns-3's real-time mode, one per existing TAP device
-// tap0 ... tap<N-1> of the current network namespace. The comparison for scripts/bench-ns3: what the
-// same air costs and delays in ns-3 3.37. Written on ns-3's public API.
+// tap0 ... tap<N-1> of the current network namespace. The comparison for scripts/bench-ns3: what
+// the same air costs and delays in ns-3 3.37. Written on ns-3's public API.
 //
 // usage: ns3_tap_bridge N RATE_MBPS DURATION_S
 
