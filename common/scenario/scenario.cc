@@ -59,7 +59,7 @@ Scenario read_document(const json& document, const std::filesystem::path& folder
     reader.missing("name", "letters, digits, '-', '_' and '.'; it names the run directory");
   }
   scenario.description = reader.text("description", {}, 10'000);
-  scenario.seed = reader.integer<std::uint64_t>("seed", scenario.seed, {0, UINT64_MAX});
+  scenario.seed = reader.integer<std::uint64_t>("seed", scenario.seed, {0, INT64_MAX});
   scenario.duration = reader.duration("duration", scenario.duration, "1 s", "24 h");
   scenario.clock = read_clock(reader);
   scenario.realtime = reader.boolean("realtime", scenario.realtime);

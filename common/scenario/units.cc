@@ -11,8 +11,8 @@ namespace {
 
 using std::numbers::pi;
 
-// Within a dimension, from small to large; the first unit with numerator = denominator is the SI
-// unit. A spelling after the SI one of the same size is accepted, never written.
+// Within a dimension, from small to large; one has numerator = denominator: the SI unit. A second
+// spelling of the same unit is accepted, never written.
 constexpr std::array kTimeUnits{Unit{"ns", 1, 1},  Unit{"us", 1e3, 1},   Unit{"ms", 1e6, 1},
                                 Unit{"s", 1e9, 1}, Unit{"min", 60e9, 1}, Unit{"h", 3600e9, 1}};
 constexpr std::array kLengthUnits{Unit{"mm", 1, 1000}, Unit{"cm", 1, 100}, Unit{"m", 1, 1},
@@ -138,19 +138,19 @@ double parse_quantity(std::string_view text, const Dimension& dimension) {
 
 std::string format_quantity(double value, const Dimension& dimension) {
   std::string best;
-  bool best_is_si = false;
+  bool best_is_handy = false;
   for (const Unit& unit : dimension.units) {
-    const bool is_si = unit.numerator == unit.denominator;
     const double scaled = value * unit.denominator / unit.numerator;
     for (const double candidate : {rounded(scaled), scaled}) {
       if (in_si(candidate, unit) != value) {
         continue;  // would not read back as the same number
       }
       const std::string text = shortest(candidate) + " " + std::string{unit.name};
-      const bool wins_tie = text.size() == best.size() && is_si && !best_is_si;
-      if (best.empty() || text.size() < best.size() || wins_tie) {
+      const bool is_handy = std::abs(candidate) >= 1.0 && std::abs(candidate) < 1000.0;
+      if (best.empty() || is_handy > best_is_handy ||
+          (is_handy == best_is_handy && text.size() < best.size())) {
         best = text;
-        best_is_si = is_si;
+        best_is_handy = is_handy;
       }
     }
   }
