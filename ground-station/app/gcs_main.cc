@@ -1,5 +1,7 @@
 // cuscus-gcs: the operator's ground station. Started by the orchestrator.
 
+#include <google/protobuf/stubs/logging.h>
+
 #include <csignal>
 #include <exception>
 
@@ -35,6 +37,8 @@ void run(ipc::ChildSession& session) {
 int main() {
   try {
     log::start("gcs");
+    // Whoever sends garbage to the telemetry port would write our log full: it is counted instead.
+    google::protobuf::SetLogHandler(nullptr);
     // Ctrl-C in the orchestrator's terminal reaches us as well; the orchestrator says when to stop.
     std::signal(SIGINT, SIG_IGN);
     auto session = ipc::ChildSession::from_environment();

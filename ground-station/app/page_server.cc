@@ -175,6 +175,7 @@ class PageServer::Connection {
       co_return;
     }
     web_socket_.text(true);
+    web_socket_.auto_fragment(false);  // one picture, one system call
     asio::co_spawn(web_socket_.get_executor(), write_pictures(), [this](std::exception_ptr) {
       writing_ = false;
       writer_done_.cancel();
@@ -195,29 +196,26 @@ class PageServer::Connection {
 
   asio::awaitable<void> write_pictures() {
     std::uint64_t sent = server_.generation_;
-    std::string picture = server_.source_();
+    std::string picture = server_.ended_ ? server_.picture_ : server_.source_();
     error_code error;
     while (reading_) {
       co_await web_socket_.async_write(asio::buffer(picture), into(error));
       if (error) {
-        break;
+        co_return;
+      }
+      if (server_.ended_ && sent == server_.generation_) {
+        co_await web_socket_.async_close(websocket::close_code::going_away, into(error));
+        co_return;
       }
       while (sent == server_.generation_ && reading_) {
         co_await wake_.async_wait(into(error));
       }
       if (!reading_) {
-        break;
+        co_return;
       }
       census_.pictures_dropped += server_.generation_ - sent - 1;
       sent = server_.generation_;
       picture = server_.picture_;
-      if (server_.ended_) {
-        co_await web_socket_.async_write(asio::buffer(picture), into(error));
-        break;
-      }
-    }
-    if (reading_) {
-      co_await web_socket_.async_close(websocket::close_code::going_away, into(error));
     }
   }
 

@@ -6,8 +6,8 @@ import { TRAIL_S } from './model.js';
 import { number } from './format.js';
 
 const TRAIL_BANDS = 8;  // pieces of a trail, each fainter than the next
-const ARM_PX = 7;
-const ROTOR_PX = 4.2;
+const ARM_PX = 7.5;
+const ROTOR_PX = 4.6;
 const PICK_PX = 18;
 
 /** [west, south, east, north] of everything that should be in view. */
@@ -89,13 +89,12 @@ function drawDrone(context, palette, x, y, yaw, colour, { lost, selected }) {
     context.strokeStyle = palette.accent;
     context.lineWidth = 1.5;
     context.beginPath();
-    context.arc(0, 0, 19, 0, 2 * Math.PI);
+    context.arc(0, 0, 25, 0, 2 * Math.PI);
     context.stroke();
   }
   context.rotate(-yaw);  // counter-clockwise from east; the canvas's y points down
   context.globalAlpha = lost ? 0.45 : 1;
   context.strokeStyle = colour;
-  context.fillStyle = palette.plan;
   context.lineWidth = 1.8;
   context.lineCap = 'round';
   context.beginPath();
@@ -107,15 +106,15 @@ function drawDrone(context, palette, x, y, yaw, colour, { lost, selected }) {
   for (const [sx, sy] of [[1, 1], [1, -1], [-1, 1], [-1, -1]]) {
     context.beginPath();
     context.arc(sx * ARM_PX, sy * ARM_PX, ROTOR_PX, 0, 2 * Math.PI);
+    context.fillStyle = sx > 0 ? colour : palette.plan;  // the front rotors are solid
     context.fill();
     context.stroke();
   }
   context.fillStyle = colour;
   context.beginPath();
-  context.moveTo(17, 0);  // the nose
-  context.lineTo(10, 4.2);
-  context.lineTo(11.5, 0);
-  context.lineTo(10, -4.2);
+  context.moveTo(22, 0);  // the nose
+  context.lineTo(14.5, 4.5);
+  context.lineTo(14.5, -4.5);
   context.closePath();
   context.fill();
   context.beginPath();
@@ -163,7 +162,7 @@ function drawGhost(context, viewport, palette, item) {
 /** Name and altitude beside a node, on the side that looks away from the fleet's middle. */
 function drawLabel(context, palette, x, y, middle, item) {
   const right = x >= middle[0] - 1;
-  const tx = x + (right ? 22 : -22);
+  const tx = x + (right ? 25 : -25);
   context.textAlign = right ? 'left' : 'right';
   context.textBaseline = 'middle';
   context.lineJoin = 'round';

@@ -1,6 +1,7 @@
 // The table of nodes, and the details of the one that is selected.
 
-import { NOTHING, number, percent, position, sum, words } from './format.js';
+import { factsOf, factsOfAll, showFacts } from './details.js';
+import { NOTHING, number, percent, sum } from './format.js';
 
 function levelOf(value, fair, bad) {
   if (value === undefined || value === null) return '';
@@ -87,41 +88,6 @@ export class FleetTable {
 
   #showDetails(snapshot) {
     const node = snapshot.nodes.find((candidate) => candidate.node === this.selected);
-    this.details.hidden = !node;
-    if (!node) return;
-    const { telemetry, truth, radio } = node;
-    const off = telemetry && truth ? Math.hypot(...truth.p_m.map((c, i) => c - telemetry.p_m[i])) : null;
-    const causes = (counts) => {
-      const some = Object.entries(counts ?? {}).filter(([, count]) => count > 0);
-      return some.length ? some.map(([cause, count]) => `${words(cause)} ${number(count)}`).join(' · ') : 'none';
-    };
-    const heard = snapshot.links.filter(([, receiver]) => receiver === node.node).length;
-    const facts = [
-      ['Truth, ENU m', position(truth?.p_m)],
-      ['Telemetry, ENU m', position(telemetry?.p_m)],
-      ['Apart', off === null ? NOTHING : `${number(off, 2)} m`],
-      ['Hears', `${heard} nodes`],
-      ['Loss, latest 64', telemetry ? `${percent(telemetry.recent_loss)} %` : NOTHING],
-      ['Address', node.address || NOTHING],
-      ['Offered', number(radio?.offered)],
-      ['Retries', number(radio?.retries)],
-      ['Acknowledged', number(radio?.acknowledged)],
-      ['Given up, by cause', causes(radio?.dropped), 'wide'],
-      ['Receptions lost, by cause', causes(radio?.lost), 'wide'],
-    ];
-    const heading = document.createElement('h2');
-    heading.textContent = node.name;
-    const list = document.createElement('dl');
-    for (const [term, text, width] of facts) {
-      const pair = document.createElement('div');
-      if (width) pair.className = width;
-      const dt = document.createElement('dt');
-      const dd = document.createElement('dd');
-      dt.textContent = term;
-      dd.textContent = text;
-      pair.append(dt, dd);
-      list.append(pair);
-    }
-    this.details.replaceChildren(heading, list);
+    showFacts(this.details, node ? node.name : 'Whole fleet', node ? factsOf(node, snapshot) : factsOfAll(snapshot));
   }
 }

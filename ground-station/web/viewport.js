@@ -1,6 +1,8 @@
 // Which part of the world the canvas shows, and how the operator moves it.
 
-const MARGIN_PX = 84;
+const SIDE_PX = 90;    // room for names
+const ABOVE_PX = 84;   // room for the tools
+const BELOW_PX = 112;  // room for the legend
 const LARGEST_SCALE = 400;  // px per metre
 const SMALLEST_SCALE = 0.002;
 const FOLLOW_PER_S = 3;  // how quickly the view follows the fleet
@@ -40,12 +42,14 @@ export class Viewport {
   follow(bounds, elapsed_s) {
     if (!bounds || (!this.automatic && this.centre)) return false;
     const [west, south, east, north] = bounds;
-    const margin = Math.min(MARGIN_PX, this.width / 6, this.height / 6);
+    const side = Math.min(SIDE_PX, this.width / 5);
+    const above = Math.min(ABOVE_PX, this.height / 5);
+    const below = Math.min(BELOW_PX, this.height / 5);
     const scale = Math.min(
-      (this.width - 2 * margin) / Math.max(east - west, 4),
-      (this.height - 2 * margin) / Math.max(north - south, 4),
+      (this.width - 2 * side) / Math.max(east - west, 4),
+      (this.height - above - below) / Math.max(north - south, 4),
     );
-    const target = [(west + east) / 2, (south + north) / 2];
+    const target = [(west + east) / 2, (south + north) / 2 - (below - above) / 2 / scale];
     if (!this.centre) {
       this.centre = target;
       this.scale = scale;

@@ -1,11 +1,11 @@
-// node check_page.mjs --url http://127.0.0.1:8080 --drones 10 --screenshot out.png [--dark]
-//     [--trail-s 5]
-// Checks the page of a run that is under way, then takes a picture of it.
+// node check_page.mjs --url http://127.0.0.1:8080 --drones 10 --screenshot out.png
+//     [--dark] [--width 1440] [--height 900] [--trail-s 5]
+// Checks the page of a run that is under way, then takes a picture of it, `trail-s` seconds later.
 
 import assert from 'node:assert/strict';
 import { parseArgs } from 'node:util';
 import { skipIfMissing, withPage } from './chromium.mjs';
-import { checkLivePage } from './page_checks.mjs';
+import { awaitSnapshot, checkLivePage } from './page_checks.mjs';
 
 const { values } = parseArgs({
   options: {
@@ -31,10 +31,11 @@ const look = {
   height: Number(values.height),
 };
 await withPage(look, async (page, complaints) => {
-  const since = (await page.evaluate(async () => (await fetch('/api/snapshot')).json())).run.sim_time_s;
   const seen = await checkLivePage(page, Number(values.drones));
-  await page.waitForFunction(async (until) =>
-    (await (await fetch('/api/snapshot')).json()).run.sim_time_s >= until, since + Number(values['trail-s']));
+  if (Number(values['trail-s']) > 0) {
+    const { run } = await awaitSnapshot(page, () => true);
+    await awaitSnapshot(page, (later) => later.run.sim_time_s >= run.sim_time_s + Number(values['trail-s']));
+  }
   if (values.screenshot) await page.screenshot({ path: values.screenshot });
   assert.deepEqual(complaints, []);
   console.log(JSON.stringify({ scenario: seen.scenario, simTime: seen.simTime, drones: seen.drones, links: seen.links }));

@@ -21,6 +21,20 @@ export function read(page) {
   });
 }
 
+/** The page's own view of the run, fetched by the page. */
+export function snapshotOf(page) {
+  return page.evaluate(async () => (await fetch('/api/snapshot')).json());
+}
+
+/** Asks for snapshots, one per animation frame, until one satisfies `holds`, and returns it. */
+export async function awaitSnapshot(page, holds) {
+  for (;;) {
+    const snapshot = await snapshotOf(page);
+    if (holds(snapshot)) return snapshot;
+    await page.evaluate(() => new Promise(requestAnimationFrame));
+  }
+}
+
 /** How many different colours the plan has: an empty plan has few. */
 export function coloursOfPlan(page) {
   return page.evaluate(() => {
@@ -45,15 +59,10 @@ export async function checkLivePage(page, drones) {
 
   const before = await read(page);
   await page.waitForFunction((time) => document.getElementById('sim-time').textContent !== time, before.simTime);
-  const positions = async () => {
-    const response = await page.evaluate(async () => (await fetch('/api/snapshot')).json());
-    return response.nodes.filter((node) => node.vehicle).map((node) => node.truth.p_m.join());
-  };
-  const first = await positions();
-  await page.waitForFunction(async (old) => {
-    const snapshot = await (await fetch('/api/snapshot')).json();
-    return snapshot.nodes.filter((node) => node.vehicle).every((node, i) => node.truth.p_m.join() !== old[i]);
-  }, first);
+  const positions = ({ nodes }) => nodes.filter((node) => node.vehicle).map((node) => node.truth.p_m.join());
+  const first = positions(await snapshotOf(page));
+  assert.equal(first.length, drones);
+  await awaitSnapshot(page, (snapshot) => positions(snapshot).every((position, i) => position !== first[i]));
   assert.ok(await coloursOfPlan(page) > 50, 'the plan is drawn');
   return read(page);
 }

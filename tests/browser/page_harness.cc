@@ -147,7 +147,10 @@ class Surroundings {
       for (std::uint32_t uav = 0; uav < uavs_; ++uav) {
         tell(uav, now_ns, telemetry_port);
       }
-      const std::array<unsigned char, 5> garbage{0xFF, 0x13, 0x80, 0x80, 0x00};
+      // A Telemetry whose state is no UTF-8, then bytes that are nothing at all.
+      const std::array<unsigned char, 9> garbage{0x5A, 0x02, 0xFF, 0xFE, 0xFF,
+                                                 0x13, 0x80, 0x80, 0x00};
+      send(garbage.data(), 4, telemetry_port);
       send(garbage.data(), garbage.size(), telemetry_port);
       ++sequence_;
     }
