@@ -9,7 +9,7 @@
 namespace cuscus::tests {
 namespace {
 
-/// What a fleet did between 35 s, when it has settled, and 60 s.
+/// What a fleet did from `settled_s` until the end of its flight.
 struct Outcome {
   double median_error_m = 0.0;
   double worst_error_m = 0.0;
@@ -20,20 +20,19 @@ struct Outcome {
   bool all_flying = true;
 };
 
-Outcome flown(const CircleFleet::Settings& settings) {
-  constexpr double kSettled_s = 35.0;
+Outcome flown(const CircleFleet::Settings& settings, double settled_s = 35.0, double end_s = 60.0) {
   CircleFleet fleet{settings};
   Outcome outcome;
   std::vector<double> errors_m;
   std::vector<double> speeds_mps;
-  fleet.fly_until(60.0, [&] {
+  fleet.fly_until(end_s, [&] {
     const double now_s = to_seconds(fleet.rig().now().time_since_epoch());
     const auto now_errors_m = fleet.formation_errors_m();
     if (*std::max_element(now_errors_m.begin(), now_errors_m.end()) > 0.5) {
       outcome.converged_s = now_s;
     }
     outcome.closest_pair_m = std::min(outcome.closest_pair_m, fleet.closest_pair_m());
-    if (now_s < kSettled_s) {
+    if (now_s < settled_s) {
       return;
     }
     errors_m.insert(errors_m.end(), now_errors_m.begin(), now_errors_m.end());
@@ -67,41 +66,53 @@ void check_formation(const Outcome& outcome) {
 CircleFleet::Settings with_beacons(int period_ms) {
   CircleFleet::Settings settings;
   settings.beacon_period = std::chrono::milliseconds{period_ms};
+  settings.neighbour_timeout = std::chrono::seconds{6};
   return settings;
 }
 
-TEST_CASE("a fleet forms its circle, the better the fresher its knowledge") {
-  const Outcome captured = flown({});
-  const Outcome at_50_ms = flown(with_beacons(50));
-  const Outcome at_500_ms = flown(with_beacons(500));
-
-  check_formation(captured);
-  check_formation(at_50_ms);
-  check_formation(at_500_ms);
-  CHECK(at_500_ms.median_error_m < 0.05);
-  WARN("median error [m]: motion capture " << captured.median_error_m << ", 50 ms "
-                                           << at_50_ms.median_error_m << ", 500 ms "
-                                           << at_500_ms.median_error_m);
-  CHECK(captured.median_error_m < at_50_ms.median_error_m);
-  CHECK(at_50_ms.median_error_m < at_500_ms.median_error_m);
-
-  // Stale positions slow the ring down by 1 + gain age (docs/models/circle.md). Mean age: half a
-  // period, 1 ms of air, the age of the estimate sent (0 ... 5 ms), the wait for the receiver's
-  // next control period (0 ... 5 ms). The vehicle's own speed error is below 1 %.
-  const missions::CircleParameters circle;
-  const auto slowed_mps = [&](double age_s) {
-    return circle.speed_mps / (1.0 + circle.spacing_gain_ps * age_s);
+// By 90 s the slowest mode of the ring (10.5 s) has died out. Bounds come from six seeds and not
+// from the one flown here; docs/models/circle.md has the table. Beacon periods of 50 and 500 ms
+// cannot be told apart by this error, which leaves the common phase out: what a longer period costs
+// is speed. So there is no check that orders them.
+TEST_CASE("a settled fleet keeps its formation, and stale positions cost it speed") {
+  struct Case {
+    int period_ms;  ///< 0: motion capture.
+    double error_bound_m;
   };
-  CHECK(captured.mean_speed_mps == Approx(circle.speed_mps).epsilon(0.01));
-  CHECK(at_50_ms.mean_speed_mps == Approx(slowed_mps(0.025 + 0.006)).epsilon(0.01));
-  CHECK(at_500_ms.mean_speed_mps == Approx(slowed_mps(0.25 + 0.006)).epsilon(0.01));
+  const Case given = GENERATE(Case{0, 0.02}, Case{50, 0.03}, Case{500, 0.03});
+  CircleFleet::Settings settings = with_beacons(given.period_ms);
+  if (given.period_ms == 0) {
+    settings.beacon_period.reset();
+  }
+
+  const Outcome outcome = flown(settings, 90.0, 120.0);
+
+  CAPTURE(given.period_ms);
+  check_formation(outcome);
+  CHECK(outcome.median_error_m < given.error_bound_m);
+  // w = w0 / (1 + gain age). Mean age of a beacon's position: half a period, 1 ms of air, the age
+  // of the estimate sent (0 ... 5 ms), the wait for the next control period (0 ... 5 ms); of a
+  // motion-capture reading: half of its 10 ms.
+  const double age_s = given.period_ms == 0 ? 0.005 : 0.5e-3 * given.period_ms + 0.006;
+  const double expected_mps =
+      settings.circle.speed_mps / (1.0 + settings.circle.spacing_gain_ps * age_s);
+  CHECK(outcome.mean_speed_mps == Approx(expected_mps).epsilon(0.01));
+}
+
+TEST_CASE("a beacon period near the time constant of the law widens the formation error") {
+  const Outcome outcome = flown(with_beacons(2000), 90.0, 120.0);
+
+  CHECK(outcome.all_flying);
+  // Above what any of six seeds had at 50 and 500 ms.
+  CHECK(outcome.median_error_m > 0.03);
+  CHECK(outcome.median_error_m < 0.5);
 }
 
 TEST_CASE("lost beacons widen the formation error") {
   auto lossy = with_beacons(500);
   lossy.beacon_loss = 0.3;
 
-  const Outcome outcome = flown(lossy);
+  const Outcome outcome = flown(lossy, 90.0, 120.0);
 
   CHECK(outcome.all_flying);
   // Without losses it is below 0.05 m, see above.
