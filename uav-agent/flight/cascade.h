@@ -35,7 +35,7 @@ struct CascadeGains {
   double horizontal_kp_radpm = 0.2;
   double horizontal_kd_rads_pm = 0.2;
   double tilt_limit_rad = 15.0 * std::numbers::pi / 180.0;
-  PidGains vertical{.kp = 4.0, .ki = 1.0, .kd = 3.4, .integral_limit = 8.0, .output_limit = 12.0};
+  PidGains vertical{.kp = 9.0, .ki = 0.6, .kd = 6.0, .integral_limit = 8.0, .output_limit = 12.0};
   NestedSatGains tilt{.reference_limit_rad = 15.0 * std::numbers::pi / 180.0,
                       .kp_ps = 6.0,
                       .rate_limit_radps = 100.0 * std::numbers::pi / 180.0,

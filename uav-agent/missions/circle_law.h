@@ -14,7 +14,7 @@ struct CircleParameters {
   double speed_mps = 2.5;          ///< Along the circle when the spacing is right.
   double spacing_gain_ps = 0.5;    ///< Angular speed per angle of spacing error [1/s].
   double speed_limit_ratio = 2.0;  ///< Speed stays within 0 ... this times speed_mps.
-  double acceleration_mps2 = 2.0;  ///< Limit of the change of commanded speed along the circle.
+  double acceleration_mps2 = 1.0;  ///< From rest to the speed of the law, on entering the circle.
   double entry_speed_mps = 3.0;    ///< On the straight way from take-off to the circle.
   double entry_acceleration_mps2 = 1.0;
   /// A neighbour this far from the circle, in radius or altitude, does not fly the formation (on

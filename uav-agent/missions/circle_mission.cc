@@ -59,13 +59,16 @@ flight::Setpoint CircleMission::circle(const flight::VehicleEstimate& estimate,
   const Eigen::Vector3d along{-std::sin(angle_rad), std::cos(angle_rad), 0.0};
   const double wanted_mps =
       circle_.radius_m * circle_law(angle_rad, fleet_size_, neighbours, circle_);
-  const double step_mps = circle_.acceleration_mps2 * dt_s;
-  speed_mps_ = std::clamp(wanted_mps, speed_mps_ - step_mps, speed_mps_ + step_mps);
+  // A ceiling that rises, and not a limit of the rate of change: beacons let the wanted speed jump
+  // up and sink slowly, and cutting only the jumps off would slow the fleet down.
+  const double top_mps = circle_.speed_limit_ratio * circle_.speed_mps;
+  ceiling_mps_ = std::min(ceiling_mps_ + circle_.acceleration_mps2 * dt_s, top_mps);
+  const double speed_mps = std::min(wanted_mps, ceiling_mps_);
   // The present speed, not the wanted one: it is what bends the path.
   const double present_mps =
       std::clamp(along.dot(estimate.v_WB_mps), 0.0, circle_.speed_limit_ratio * circle_.speed_mps);
   return {.p_WB_m = circle_.p_WC_centre_m + circle_.radius_m * outwards,
-          .v_WB_mps = speed_mps_ * along,
+          .v_WB_mps = speed_mps * along,
           .a_WB_mps2 = -(present_mps * present_mps / circle_.radius_m) * outwards};
 }
 

@@ -46,7 +46,7 @@ class CircleMission {
   std::uint32_t fleet_size_;
   std::optional<Entry> entry_;
   bool circling_ = false;
-  double speed_mps_ = 0.0;  ///< Commanded along the circle, after the acceleration limit.
+  double ceiling_mps_ = 0.0;  ///< Of the speed along the circle: rises from 0 when it begins.
   std::optional<SimTime> last_;
 };
 
