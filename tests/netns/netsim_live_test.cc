@@ -194,9 +194,7 @@ TEST_CASE("broadcast datagrams reach every other node once, with their contents"
     const std::string text = "datagram " + std::to_string(i);
     fleet.send(from, inet_address(255), text);
     for (std::uint32_t node = 0; node < 3; ++node) {
-      if (node != from) {
-        REQUIRE(fleet.receive(node) == text);
-      }
+      REQUIRE(fleet.receive(node) == text);  // the sender's own kernel gives it a copy
     }
   }
   fleet.stop();
@@ -229,9 +227,10 @@ TEST_CASE("individually addressed datagrams are resolved, acknowledged and answe
   }
   fleet.stop();
 
-  // Ten datagrams each way, and node 2's ARP reply; requests are group frames.
+  // Ten datagrams each way and node 2's ARP reply (requests are group frames), less the last
+  // answer, whose ACK we did not wait for.
   CHECK(fleet.air().tally(0).acknowledged >= 10);
-  CHECK(fleet.air().tally(2).acknowledged >= 11);
+  CHECK(fleet.air().tally(2).acknowledged >= 10);
   CHECK(fleet.air().tally(0).dropped_retry_limit == 0);
   CHECK(fleet.air().report().release_lateness().p50_ns() >= 0);
 }
