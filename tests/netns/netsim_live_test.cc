@@ -96,7 +96,8 @@ class Fleet final : public LiveOwner {
       setup.addresses.push_back(mac_address(address_of(i)));
     }
     memory_.resize(shm::RadioMemoryWriter::byte_size(count) / sizeof(Line) + 1);
-    setup.radio_memory = std::as_writable_bytes(std::span{memory_});
+    setup.radio_memory =
+        std::as_writable_bytes(std::span{memory_}).first(shm::RadioMemoryWriter::byte_size(count));
     air_.emplace(std::move(setup), positions_);
     thread_ = std::thread{[this] { air_->run(posix::monotonic_now_ns() + 1'000'000, *this); }};
     started_.lock();  // until the first heartbeat
@@ -132,7 +133,9 @@ class Fleet final : public LiveOwner {
 
   [[nodiscard]] const LiveAir& air() const { return *air_; }
   [[nodiscard]] shm::RadioMemoryReader memory() const {
-    return shm::RadioMemoryReader{std::as_bytes(std::span{memory_})};
+    return shm::RadioMemoryReader{
+        std::as_bytes(std::span{memory_})
+            .first(shm::RadioMemoryWriter::byte_size(static_cast<std::uint32_t>(nodes_.size())))};
   }
 
   [[nodiscard]] int fd() const override { return wake_.get(); }
