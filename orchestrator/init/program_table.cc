@@ -29,6 +29,7 @@ void ProgramTable::launch(const proto::Launch& launch, std::vector<posix::Unique
                                          .gid = launch.gid(),
                                          .capabilities = {launch.capabilities().begin(),
                                                           launch.capabilities().end()}},
+        .realtime = launch.realtime(),
         .open_files = kOpenFiles};
     auto child = posix::ChildProcess::spawn(specification);
     const pid_t pid = child.pid();
