@@ -36,12 +36,10 @@ ALLOWED |= {
     | {"common/posix", "common/ipc", "proto", "uav-agent/flight", "uav-agent/sdk"},
     "ground-station/core": PURE | {"proto"},
     "orchestrator/plan": PURE | {"proto"},
-    "orchestrator/results": PURE | {"proto", "orchestrator/plan"},
     "orchestrator/netlink": {"common/posix", "proto"},
     "orchestrator/init": {"common/posix", "common/ipc", "proto"},
     "orchestrator/node": {"common/posix", "common/ipc", "proto", "orchestrator/netlink"},
     "orchestrator/results": PURE | {"proto", "common/posix", "orchestrator/plan"},
-    "orchestrator/netlink": {"common/posix"},
 }
 for component in ("world", "netsim", "uav-agent", "ground-station", "orchestrator"):
     # The rest of a component (app/, *_main.cc) may use its own folders, and no other component's.
