@@ -101,7 +101,7 @@ std::string pointer_token(const std::string& token) {
     } else if (c == '/') {
       escaped += "~1";
     } else {
-      escaped += c;
+      escaped += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
     }
   }
   return escaped;

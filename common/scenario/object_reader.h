@@ -93,6 +93,7 @@ class ObjectReader {
   [[nodiscard]] Enum choice(const std::string& key, Enum fallback,
                             const std::array<Named<Enum>, n>& table) {
     std::vector<std::string> names;
+    names.reserve(n);
     for (const auto& [name, value] : table) {
       names.emplace_back(name);
     }

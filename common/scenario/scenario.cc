@@ -161,7 +161,8 @@ std::vector<Position_m> positions(const GridLayout& grid, std::uint32_t count) {
   std::vector<Position_m> result;
   for (std::uint32_t i = 0; i < count; ++i) {
     const double column = i % columns - (columns - 1) / 2.0;
-    const double row = static_cast<double>(i / columns) - (rows - 1) / 2.0;
+    const std::uint32_t row_index = i / columns;
+    const double row = row_index - (rows - 1) / 2.0;
     result.push_back({grid.centre_m[0] + grid.spacing_m * column,
                       grid.centre_m[1] + grid.spacing_m * row, grid.centre_m[2]});
   }

@@ -251,7 +251,7 @@ struct Scenario {
 /// Rates of `standard` [kb/s], rising.
 [[nodiscard]] std::span<const std::uint32_t> rates_kbps(RadioStandard standard);
 
-/// The JSON schema of scenarios (draft-07), for editors and for `cuscus check --schema`.
+/// The JSON schema of scenarios (draft-07), as it is in scenarios/scenario.schema.json.
 [[nodiscard]] std::string_view scenario_schema();
 
 }  // namespace cuscus::scenario

@@ -14,8 +14,8 @@ namespace cuscus::orchestrator {
 /// Source: IEEE Std 802.11-2020, 18.3.2.4 and 17.3.2 (equation 17-29), 16.3.4.
 [[nodiscard]] double airtime_s(std::uint32_t ip_bytes, std::uint32_t rate_kbps);
 
-/// What `scenario` will cost with `nodes` radio nodes. An estimate, from figures measured on a
-/// two-core x86-64 machine of 2023; docs/scenario.md names them.
+/// What the beacons and the telemetry of `scenario` will cost. docs/scenario.md has the figures
+/// that it multiplies and where they come from.
 [[nodiscard]] CapacityEstimate estimate_capacity(const scenario::Scenario& scenario);
 
 }  // namespace cuscus::orchestrator

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "orchestrator/results/report_json.h"
 
@@ -54,13 +55,18 @@ class Judge {
     world();
     agents();
     host();
+    std::stable_sort(reasons_.begin(), reasons_.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (auto& [verdict, text] : reasons_) {
+      fidelity_.reasons.push_back(std::move(text));
+    }
     return std::move(fidelity_);
   }
 
  private:
   void reject(const std::string& reason) {
     fidelity_.verdict = Verdict::kInvalid;
-    fidelity_.reasons.push_back(reason);
+    reasons_.emplace_back(Verdict::kInvalid, reason);
   }
 
   void radio() {
@@ -185,8 +191,8 @@ class Judge {
 
   void add(FidelityCheck check, const std::string& text) {
     if (check.verdict != Verdict::kValid) {
-      fidelity_.reasons.push_back(
-          fmt::format("{} (valid: up to {:.3g} {})", text, check.valid_up_to, check.unit));
+      reasons_.emplace_back(check.verdict, fmt::format("{} (valid: up to {:.3g} {})", text,
+                                                       check.valid_up_to, check.unit));
     }
     fidelity_.verdict = std::max(fidelity_.verdict, check.verdict);
     fidelity_.checks.push_back(std::move(check));
@@ -194,6 +200,7 @@ class Judge {
 
   const FidelityInputs& inputs_;
   Fidelity fidelity_;
+  std::vector<std::pair<Verdict, std::string>> reasons_;
 };
 
 }  // namespace

@@ -48,8 +48,9 @@ struct FidelityCheck {
 
 struct Fidelity {
   Verdict verdict{Verdict::kValid};
-  std::vector<std::string> reasons;  ///< Why it is not VALID, each with number, unit and limit.
-  std::vector<std::string> notes;    ///< What a reader should know beside the verdict.
+  /// Why it is not VALID, each with number, unit and limit; the worst first.
+  std::vector<std::string> reasons;
+  std::vector<std::string> notes;  ///< What a reader should know beside the verdict.
   std::vector<FidelityCheck> checks;
 };
 

@@ -178,6 +178,14 @@ TEST_CASE("A document that is not an object is refused") {
   CHECK_THAT(error_of("null").what(), Catch::Contains("null is null; allowed: an object"));
 }
 
+TEST_CASE("Control characters of a key do not reach the terminal") {
+  const ScenarioError error =
+      error_of(R"({"name": "t", "fleet": [{}], "\u001b[2Jevil\u0007": "\u001b[2J"})");
+
+  CHECK(error.problems().front().path == "/?[2Jevil?");
+  CHECK(std::string{error.what()}.find('\x1b') == std::string::npos);
+}
+
 TEST_CASE("A key given twice is refused with its path") {
   const ScenarioError error = error_of(
       R"({"name": "t", "fleet": [{}, {"start": {"layout": "grid", "heading": "0 deg", "layout": "line"}}]})");
