@@ -67,8 +67,8 @@ struct AirParameters {
   /// Transmissions that arrive with less than noise less this are left out at a receiver: they are
   /// not interference either. One adds less than 1 % to the noise.
   Decibel arrival_floor_below_noise{20.0};
-  ChannelParameters channel;
-  std::vector<AirNode> nodes;
+  ChannelParameters channel{};
+  std::vector<AirNode> nodes{};
 };
 
 /// A frame handed to the air.

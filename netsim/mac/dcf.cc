@@ -206,13 +206,11 @@ void Dcf::schedule_access(SimTime now) {
 }
 
 void Dcf::access(SimTime now) {
-  while (!queue_.empty() && now - queue_.front().queued_at > parameters_->queue_lifetime) {
+  while (attempts_ == 0 && !queue_.empty() &&
+         now - queue_.front().queued_at > parameters_->queue_lifetime) {
     const Msdu expired = queue_.front();
-    const std::uint32_t attempts = attempts_;
     queue_.pop_front();
-    attempts_ = 0;
-    cw_ = parameters_->cw_min;
-    host_->finished(node_, expired, SendOutcome::kLifetime, attempts);
+    host_->finished(node_, expired, SendOutcome::kLifetime, 0);
   }
   contending_ = false;
   immediate_ = false;

@@ -38,7 +38,7 @@ enum class SendOutcome : std::uint8_t {
   kSent,          ///< Group frame: put on the air once.
   kAcknowledged,  ///< Individually addressed: confirmed.
   kQueueFull,
-  kLifetime,
+  kLifetime,  ///< Waited too long for its first attempt.
   kRetryLimit,
 };
 
@@ -53,7 +53,7 @@ struct MacParameters {
   std::uint32_t cw_max{};
   std::uint32_t retry_limit{};  ///< Attempts per frame.
   std::uint32_t queue_frames{};
-  Duration queue_lifetime{};
+  Duration queue_lifetime{};  ///< Until the first attempt; after that the retry limit rules.
   const Mode* data_mode{};
   const Mode* group_mode{};
   const Mode* ack_mode{};
