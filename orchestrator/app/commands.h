@@ -18,13 +18,13 @@ struct ScenarioArguments {
   std::optional<std::string> duration;
   std::optional<std::string> seed;
   std::optional<std::string> clock;
+  bool no_page{false};
   std::vector<std::string> set;  ///< PATH=VALUE
 };
 
 struct RunArguments {
   ScenarioArguments scenario;
   std::optional<std::filesystem::path> out;  ///< Else runs/<run id>.
-  bool no_page{false};
 };
 
 /// Loads the scenario with the command line's changes.

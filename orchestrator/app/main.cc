@@ -52,7 +52,7 @@ struct CommandLine {
     auto* const run_command = app.add_subcommand("run", "fly a scenario");
     add_scenario_options(*run_command, run.scenario);
     run_command->add_option("--out", run.out, "folder for the results (default runs/<run id>)");
-    run_command->add_flag("--no-page", run.no_page, "do not serve the page");
+    run_command->add_flag("--no-page", run.scenario.no_page, "do not serve the page");
     auto* const check_command =
         app.add_subcommand("check", "check a scenario and print the plan; creates nothing");
     add_scenario_options(*check_command, check);

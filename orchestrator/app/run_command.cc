@@ -92,7 +92,7 @@ int run_command(const RunArguments& arguments) {
   const fs::path programs = check_own_programs();
   check_open_files(plan);
   posix::UniqueFd page_listener;
-  if (plan.page_port && !arguments.no_page) {
+  if (plan.page_port) {
     page_listener = listen_for_page(*plan.page_port);
   }
   const RunRegistry registry{RunRegistry::default_folder()};
