@@ -227,6 +227,7 @@ class Planner {
     }
     program.capabilities = group.capabilities;
     program.on_exit = group.on_exit;
+    program.working_directory = scenario_.folder.string();
     program.log_name = uav.name + "-command.log";
     return program;
   }

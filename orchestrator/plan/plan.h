@@ -24,6 +24,8 @@ struct Program {
   std::vector<std::string> arguments;
   std::vector<std::string> environment;   ///< KEY=VALUE, complete but for CUSCUS_CONTROL_FD.
   std::vector<std::string> capabilities;  ///< "cap_net_raw"
+  /// Of a command: the scenario's folder; of our own programs: empty, which is "/".
+  std::string working_directory{};
   scenario::OnExit on_exit{scenario::OnExit::kFail};
   bool has_control_socket{false};
   std::string log_name;  ///< File in the run directory's logs/ for its output: "uav3-command.log".
