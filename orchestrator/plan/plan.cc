@@ -327,9 +327,10 @@ class Planner {
     radio.set_cca_preamble_dbm(from.cca_preamble.value);
     radio.set_cca_energy_dbm(from.cca_energy.value);
     constexpr double kNone = -std::numeric_limits<double>::infinity();
-    const auto& detection = from.preamble_detection;
-    radio.set_detection_minimum_dbm(detection ? detection->minimum_power.value : kNone);
-    radio.set_detection_minimum_sinr_db(detection ? detection->minimum_sinr.value : kNone);
+    const scenario::PreambleDetection detection = from.preamble_detection.value_or(
+        scenario::PreambleDetection{.minimum_power = {kNone}, .minimum_sinr = {kNone}});
+    radio.set_detection_minimum_dbm(detection.minimum_power.value);
+    radio.set_detection_minimum_sinr_db(detection.minimum_sinr.value);
     *radio.mutable_propagation() = propagation();
     radio.set_realtime_priority(priority(scenario_, kRadioPriority));
     radio.set_bridge(plan_.attach == scenario::Attach::kBridge);

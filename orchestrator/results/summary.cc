@@ -92,6 +92,7 @@ Json to_json(const RunOutcome& run, const Fidelity& fidelity) {
   return {{"run_id", run.run_id},
           {"scenario", run.scenario_name},
           {"seed", run.seed},
+          {"versions", Json(run.versions)},
           {"started_utc", run.started_utc},
           {"planned_s", to_seconds(run.planned)},
           {"simulated_s", to_seconds(run.simulated)},

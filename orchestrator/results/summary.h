@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
@@ -60,7 +61,9 @@ struct RunOutcome {
   SimClock::duration planned{};    ///< The scenario's duration.
   SimClock::duration simulated{};  ///< How far it got.
   std::string end_reason;          ///< "duration reached", "SIGINT", "netsim: killed by ..."
-  int exit_code{};                 ///< Of `cuscus`.
+  /// What ran, by name: "cuscus", "kernel".
+  std::map<std::string, std::string> versions;
+  int exit_code{};  ///< Of `cuscus`.
   std::vector<NodeOutcome> nodes;
   std::optional<FormationErrorSummary> formation_error;  ///< Of all UAVs together.
   std::optional<proto::GroundStationReport> ground_station;

@@ -341,6 +341,7 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   RunOutcome run;
   run.run_id = "t-20260131T120000Z-000001";
   run.seed = 7;
+  run.versions["cuscus"] = "0.1.0";
   run.simulated = 1500ms;
   NodeOutcome first;
   first.name = "uav0";
@@ -373,6 +374,7 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   CHECK(json.at("verdict") == "DEGRADED");
   CHECK(json.at("verdict_reasons").at(0) == "late");
   CHECK(json.at("simulated_s") == 1.5);
+  CHECK(json.at("versions").at("cuscus") == "0.1.0");
   CHECK(json.at("radio_total").at("offered") == 11);
   CHECK(json.at("radio_total").at("received") == 5);
   CHECK(json.at("radio_total").at("lost_collision") == 2);
