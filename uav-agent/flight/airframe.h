@@ -20,7 +20,7 @@ struct Airframe {
   double gravity_mps2 = kGravity_mps2;
 
   /// Thrust of one motor at command 1 [N].
-  [[nodiscard]] double motor_thrust_max_N() const {
+  [[nodiscard]] double motor_thrust_max_newton() const {
     return thrust_factor * motor_speed_per_command * motor_speed_per_command;
   }
 };

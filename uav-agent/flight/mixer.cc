@@ -15,8 +15,8 @@ constexpr std::array<double, 4> kYaw{-1.0, 1.0, 1.0, -1.0};
 Mixer::Mixer(const Airframe& airframe, double command_min)
     : roll_lever_m_{airframe.arm_m * std::numbers::sqrt2 / 2.0},
       yaw_lever_m_{airframe.torque_factor / airframe.thrust_factor},
-      thrust_max_N_{airframe.motor_thrust_max_N()},
-      thrust_min_N_{airframe.motor_thrust_max_N() * command_min * command_min} {}
+      thrust_max_N_{airframe.motor_thrust_max_newton()},
+      thrust_min_N_{airframe.motor_thrust_max_newton() * command_min * command_min} {}
 
 MotorCommands Mixer::commands(const Wrench& wanted) const {
   std::array<double, 4> tilt_N{};

@@ -79,7 +79,7 @@ TEST_CASE("thrust is given up before roll and pitch") {
         mixer.wrench(mixer.commands({.thrust_N = 99.0, .torque_B_Nm = {1.0, 0.5, 0.0}}));
     CHECK(got.torque_B_Nm.x() == Approx(1.0));
     CHECK(got.torque_B_Nm.y() == Approx(0.5));
-    CHECK(got.thrust_N < 4.0 * airframe.motor_thrust_max_N());
+    CHECK(got.thrust_N < 4.0 * airframe.motor_thrust_max_newton());
   }
   SECTION("none of it is asked for") {
     const Wrench got =
