@@ -86,6 +86,8 @@ class PageServer::Connection {
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
+  Connection(Connection&&) = delete;
+  Connection& operator=(Connection&&) = delete;
   ~Connection() {
     --census_.connections;
     census_.clients.remove(&wake_);
