@@ -1,0 +1,230 @@
+#include "netsim/air/air.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+
+#include "netsim/air/event_rank.h"
+
+namespace cuscus::netsim {
+namespace {
+
+// Purposes of random streams (see random::stream_id).
+constexpr std::uint16_t kBackoffStream = 0x1002;
+constexpr std::uint16_t kReceptionStream = 0x1003;
+
+void require(bool holds, const std::string& rule) {
+  if (!holds) {
+    throw std::invalid_argument{"radio: " + rule};
+  }
+}
+
+MacParameters mac_parameters(const AirParameters& p, const Standard& standard) {
+  require(p.slot >= Duration::zero(), "the slot must not be negative");
+  require(p.retry_limit >= 1, "the retry limit counts attempts and must be at least 1");
+  require(p.queue_frames >= 1, "the queue must hold at least 1 frame");
+  require(p.queue_lifetime > Duration::zero(), "the queue lifetime must be above 0");
+  for (const std::uint32_t rate : p.basic_rates_kbps) {
+    static_cast<void>(standard.mode(rate));  // throws on a rate that does not exist
+  }
+  const Duration slot = p.slot == Duration::zero() ? standard.slot : p.slot;
+  auto mac =
+      MacParameters::from(standard, slot, p.data_rate_kbps, p.group_rate_kbps, p.basic_rates_kbps);
+  mac.retry_limit = p.retry_limit;
+  mac.queue_frames = p.queue_frames;
+  mac.queue_lifetime = p.queue_lifetime;
+  return mac;
+}
+
+ReceiverParameters receiver_parameters(const AirParameters& p, const Standard& standard) {
+  require(std::isfinite(p.noise_figure.value), "the noise figure must be finite");
+  return {.noise = noise_floor(standard.bandwidth_hz, p.noise_figure),
+          .cca_preamble = p.cca_preamble,
+          .cca_energy = p.cca_energy,
+          .sensitivity = p.sensitivity,
+          .detection_minimum = p.detection_minimum,
+          .detection_minimum_sinr = p.detection_minimum_sinr};
+}
+
+}  // namespace
+
+Air::Station::Station(const ReceiverModel& model, std::uint32_t node, const MacParameters& mac,
+                      MacHost& host, std::uint64_t seed)
+    : receiver{model, random::CounterStream{seed, random::stream_id(kReceptionStream, node)}},
+      dcf{node, mac, host, random::CounterStream{seed, random::stream_id(kBackoffStream, node)}} {}
+
+Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener)
+    : seed_{parameters.seed},
+      standard_{&standard_of(parameters.standard)},
+      mac_{mac_parameters(parameters, *standard_)},
+      errors_{make_error_model(parameters.error_model)},
+      receiver_model_{receiver_parameters(parameters, *standard_), *errors_},
+      channel_{parameters.channel},
+      floor_mw_{receiver_model_.noise_mw() / parameters.arrival_floor_below_noise.ratio()},
+      shortest_airtime_{airtime(standard_->modes.back(), kAckBytes)},
+      radios_{parameters.nodes},
+      positions_{&positions},
+      listener_{&listener} {
+  require(!radios_.empty() && radios_.size() <= 65'535, "there must be 1 to 65535 nodes");
+  require(positions.positions(SimTime{}).size() >= radios_.size(), "a node has no position");
+  stations_.reserve(radios_.size());
+  for (std::uint32_t node = 0; node < radios_.size(); ++node) {
+    require(std::isfinite(radios_[node].tx_power.value) &&
+                std::isfinite(radios_[node].antenna_gain.value),
+            "powers and gains must be finite");
+    stations_.emplace_back(receiver_model_, node, mac_, static_cast<MacHost&>(*this), seed_);
+  }
+}
+
+DecibelMilliwatt Air::noise() const {
+  return DecibelMilliwatt::from_milliwatts(receiver_model_.noise_mw());
+}
+
+void Air::offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame) {
+  assert(node < stations_.size());
+  std::uint32_t slot = 0;
+  if (free_pending_.empty()) {
+    slot = static_cast<std::uint32_t>(pending_.size());
+    pending_.emplace_back();
+  } else {
+    slot = free_pending_.back();
+    free_pending_.pop_back();
+  }
+  const bool to_itself = frame.destination == static_cast<std::int32_t>(node);
+  pending_[slot] = {.report = {.id = frame.id,
+                               .sender = node,
+                               .destination = to_itself ? kNobody : frame.destination,
+                               .psdu_bytes = frame.psdu_bytes,
+                               .sent_at = sent_at},
+                    .references = 1};
+  queue_.schedule(std::max(sent_at, now_), event_rank(EventRank::kOffer, node),
+                  {.kind = Step::Kind::kOffer, .index = slot});
+}
+
+std::optional<SimTime> Air::next_event() const {
+  if (queue_.empty()) {
+    return std::nullopt;
+  }
+  return queue_.next_time();
+}
+
+std::optional<SimTime> Air::next_delivery_bound() const {
+  // What is on the air ends at a known time; what is not needs an event and an airtime first.
+  std::optional<SimTime> bound;
+  if (!queue_.empty()) {
+    bound = queue_.next_time() + shortest_airtime_;
+  }
+  for (const Transmission& transmission : transmissions_) {
+    if (transmission.active && transmission.frame.kind == MacFrame::Kind::kData &&
+        !transmission.arrivals.empty()) {
+      const auto next =
+          std::min<std::size_t>(transmission.next[static_cast<std::size_t>(Phase::kFinish)],
+                                transmission.arrivals.size() - 1);
+      const SimTime end = transmission.phase_at[static_cast<std::size_t>(Phase::kFinish)] +
+                          transmission.arrivals[next].delay;
+      bound = bound ? std::min(*bound, end) : end;
+    }
+  }
+  return bound;
+}
+
+void Air::run_until(SimTime limit) {
+  while (run_next(limit)) {
+  }
+  now_ = std::max(now_, limit);
+}
+
+bool Air::run_next(SimTime limit) {
+  if (queue_.empty() || queue_.next_time() > limit) {
+    return false;
+  }
+  const auto event = queue_.pop();
+  now_ = event.time;
+  ++events_;
+  const Step& step = event.payload;
+  switch (step.kind) {
+    case Step::Kind::kOffer: {
+      const FrameReport& report = pending_[step.index].report;
+      Station& station = stations_[report.sender];
+      ++station.tally.offered;
+      station.dcf.enqueue(now_, {.frame = step.index,
+                                 .destination = report.destination,
+                                 .psdu_bytes = report.psdu_bytes,
+                                 .queued_at = now_});
+      break;
+    }
+    case Step::Kind::kSweep:
+      sweep(step.index, static_cast<Phase>(step.detail), limit);
+      break;
+    case Step::Kind::kTransmissionEnd:
+      stations_[step.index].receiver.end_transmission();
+      stations_[step.index].dcf.transmission_ended(now_);
+      update_medium(step.index);
+      break;
+    case Step::Kind::kTimer: {
+      stations_[step.index].timers[step.detail] = {};
+      stations_[step.index].dcf.timer(now_, static_cast<MacTimer>(step.detail));
+      break;
+    }
+  }
+  return true;
+}
+
+void Air::set_timer(std::uint32_t node, MacTimer timer, SimTime time) {
+  cancel_timer(node, timer);
+  const EventRank rank = timer == MacTimer::kAckTimeout ? EventRank::kTimeout : EventRank::kAccess;
+  stations_[node].timers[static_cast<std::size_t>(timer)] = queue_.schedule(
+      time, event_rank(rank, node),
+      {.kind = Step::Kind::kTimer, .detail = static_cast<std::uint8_t>(timer), .index = node});
+}
+
+void Air::cancel_timer(std::uint32_t node, MacTimer timer) {
+  queue_.cancel(stations_[node].timers[static_cast<std::size_t>(timer)]);
+  stations_[node].timers[static_cast<std::size_t>(timer)] = {};
+}
+
+void Air::finished(std::uint32_t node, const Msdu& msdu, SendOutcome outcome,
+                   std::uint32_t attempts) {
+  Pending& pending = pending_[msdu.frame];
+  pending.report.outcome = outcome;
+  pending.report.attempts = attempts;
+  Tally& tally = stations_[node].tally;
+  switch (outcome) {
+    case SendOutcome::kSent:
+      ++tally.sent_group;
+      break;
+    case SendOutcome::kAcknowledged:
+      ++tally.acknowledged;
+      break;
+    case SendOutcome::kQueueFull:
+      ++tally.dropped_queue_full;
+      break;
+    case SendOutcome::kLifetime:
+      ++tally.dropped_lifetime;
+      break;
+    case SendOutcome::kRetryLimit:
+      ++tally.dropped_retry_limit;
+      break;
+  }
+  release(msdu.frame);
+}
+
+void Air::release(std::uint32_t frame) {
+  Pending& pending = pending_[frame];
+  if (--pending.references > 0) {
+    return;
+  }
+  const FrameReport report = pending.report;
+  if (report.destination >= 0 && report.deliveries == 0) {
+    stations_[static_cast<std::size_t>(report.destination)].tally.count(pending.destination_cause);
+  }
+  free_pending_.push_back(frame);
+  listener_->finished(report);
+}
+
+bool Air::meant_for(const MacFrame& frame, std::uint32_t node) const {
+  return frame.receiver == kGroup || frame.receiver == static_cast<std::int32_t>(node);
+}
+
+}  // namespace cuscus::netsim

@@ -1,0 +1,231 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "netsim/air/tally.h"
+#include "netsim/channel/channel.h"
+#include "netsim/kernel/event_queue.h"
+#include "netsim/mac/dcf.h"
+#include "netsim/phy/receiver.h"
+
+namespace cuscus::netsim {
+
+/// Where the nodes are.
+class PositionSource {
+ public:
+  virtual ~PositionSource() = default;
+
+  /// Of all nodes, by number, ENU [m]; valid until the next call.
+  [[nodiscard]] virtual const std::vector<Eigen::Vector3d>& positions(SimTime now) = 0;
+  /// Changes whenever positions() has changed: link losses are kept while it stays.
+  [[nodiscard]] virtual std::uint64_t version() const = 0;
+};
+
+/// Nodes that do not move.
+class FixedPositions final : public PositionSource {
+ public:
+  explicit FixedPositions(std::vector<Eigen::Vector3d> p_WN) : p_WN_{std::move(p_WN)} {}
+
+  [[nodiscard]] const std::vector<Eigen::Vector3d>& positions(SimTime /*now*/) override {
+    return p_WN_;
+  }
+  [[nodiscard]] std::uint64_t version() const override { return 1; }
+
+ private:
+  std::vector<Eigen::Vector3d> p_WN_;
+};
+
+/// Radio of one node.
+struct AirNode {
+  DecibelMilliwatt tx_power{16.0206};
+  Decibel antenna_gain{0.0};  ///< At either end of a link.
+};
+
+/// What a scenario says about the air.
+struct AirParameters {
+  std::uint64_t seed{1};
+  std::string standard{"802.11g"};
+  std::uint32_t data_rate_kbps{6'000};
+  std::uint32_t group_rate_kbps{6'000};
+  std::vector<std::uint32_t> basic_rates_kbps{6'000, 12'000, 24'000};
+  Decibel noise_figure{7.0};
+  Duration slot{0};  ///< 0: the standard's.
+  std::uint32_t retry_limit{7};
+  std::uint32_t queue_frames{500};
+  Duration queue_lifetime{std::chrono::milliseconds{500}};
+  std::string error_model{"nist"};
+  DecibelMilliwatt cca_preamble{-82.0};
+  DecibelMilliwatt cca_energy{-62.0};
+  DecibelMilliwatt sensitivity{-101.0};
+  DecibelMilliwatt detection_minimum{-82.0};
+  Decibel detection_minimum_sinr{4.0};
+  /// Transmissions that arrive with less than noise less this are left out at a receiver: they are
+  /// not interference either. One adds less than 1 % to the noise.
+  Decibel arrival_floor_below_noise{20.0};
+  ChannelParameters channel{};
+  std::vector<AirNode> nodes{};
+};
+
+/// A frame handed to the air.
+struct OfferedFrame {
+  std::uint64_t id{};  ///< The caller's; not interpreted.
+  std::int32_t destination{kGroup};
+  std::uint32_t psdu_bytes{};
+};
+
+/// A frame arrived at a node that it was meant for.
+struct Delivery {
+  SimTime time;
+  std::uint64_t id;
+  std::uint32_t sender;
+  std::uint32_t receiver;
+  DecibelMilliwatt received_power;
+};
+
+/// A frame is over: nothing of it is on the air or will be.
+struct FrameReport {
+  std::uint64_t id{};
+  std::uint32_t sender{};
+  std::int32_t destination{};
+  std::uint32_t psdu_bytes{};
+  SimTime sent_at{};
+  std::uint32_t attempts{};
+  SendOutcome outcome{};
+  std::uint32_t deliveries{};
+  SimTime first_delivery{};  ///< Valid when there are deliveries.
+};
+
+/// Whoever is told what becomes of frames. May call Air::offer() from within.
+class AirListener {
+ public:
+  virtual ~AirListener() = default;
+  virtual void delivered(const Delivery& delivery) = 0;
+  virtual void finished(const FrameReport& report) = 0;
+};
+
+/// The air of a run: every node's MAC and PHY and the channel between them, as one discrete-event
+/// simulation that its caller drives. No I/O, no clock, no thread; equal inputs give equal outputs.
+///
+/// A transmission is five sweeps over the nodes that it reaches, in the order of their distance:
+/// energy begins, preamble detected, SIGNAL field over, energy ends, PPDU over. A sweep is
+/// interrupted wherever another event comes first, so the order of events is exact, and costs one
+/// entry in the event queue where it is not.
+class Air final : private MacHost {
+ public:
+  /// `positions` and `listener` must outlive this object.
+  /// @throws std::invalid_argument naming what is wrong and what is allowed.
+  Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener);
+
+  /// A program on `node` sent a frame at `sent_at`; when that is before now(), it counts as now().
+  void offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame);
+
+  /// Runs one step if the first event is due by `limit`; false when it is not.
+  bool run_next(SimTime limit);
+  /// Runs all events up to and including `limit`, which becomes now().
+  void run_until(SimTime limit);
+
+  /// Of the latest event.
+  [[nodiscard]] SimTime now() const { return now_; }
+  [[nodiscard]] std::optional<SimTime> next_event() const;
+  /// No frame can be delivered before this, whatever is offered from now on is aside.
+  [[nodiscard]] std::optional<SimTime> next_delivery_bound() const;
+
+  [[nodiscard]] std::uint32_t node_count() const {
+    return static_cast<std::uint32_t>(stations_.size());
+  }
+  [[nodiscard]] const Tally& tally(std::uint32_t node) const { return stations_[node].tally; }
+  [[nodiscard]] std::uint64_t events() const { return events_; }
+  [[nodiscard]] const MacParameters& mac() const { return mac_; }
+  [[nodiscard]] DecibelMilliwatt noise() const;
+
+ private:
+  /// How a sender reaches a receiver, while nobody moves.
+  struct Reach {
+    std::uint32_t receiver;
+    Duration delay;
+    double received_dbm;
+    double received_mw;
+  };
+  struct Station {
+    Station(const ReceiverModel& model, std::uint32_t node, const MacParameters& mac, MacHost& host,
+            std::uint64_t seed);
+    Receiver receiver;
+    Dcf dcf;
+    Tally tally{};
+    bool busy{false};
+    std::array<EventId, kMacTimers> timers{};
+    std::uint64_t transmissions{0};
+    std::uint64_t reach_version{0};
+    std::vector<Reach> reach;  ///< By delay.
+  };
+  enum class Phase : std::uint8_t { kBegin, kDetect, kHeader, kEnergyEnds, kFinish };
+  static constexpr std::size_t kPhases = 5;
+  struct Transmission {
+    MacFrame frame;
+    PpduTiming timing;
+    std::array<SimTime, kPhases> phase_at{};  ///< At the antenna of the sender.
+    std::array<std::uint32_t, kPhases> next{};
+    std::vector<Arrival> arrivals;  ///< By delay.
+    bool active{false};
+  };
+  /// A frame between offer() and finished().
+  struct Pending {
+    FrameReport report;
+    std::uint32_t references{0};  ///< The MAC, and transmissions that carry it.
+    LossCause destination_cause{LossCause::kNone};
+  };
+  struct Step {
+    enum class Kind : std::uint8_t { kOffer, kSweep, kTransmissionEnd, kTimer };
+    Kind kind{Kind::kOffer};
+    std::uint8_t detail{0};  ///< Phase or MacTimer.
+    std::uint32_t index{0};  ///< Pending frame, transmission, or node.
+  };
+
+  // MacHost
+  void transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
+                std::uint32_t psdu_bytes) override;
+  void set_timer(std::uint32_t node, MacTimer timer, SimTime time) override;
+  void cancel_timer(std::uint32_t node, MacTimer timer) override;
+  void finished(std::uint32_t node, const Msdu& msdu, SendOutcome outcome,
+                std::uint32_t attempts) override;
+
+  void update_reach(std::uint32_t sender);
+  void spread(Transmission& transmission, std::uint32_t sender);
+  [[nodiscard]] static std::uint64_t rank_of_phase(Phase phase, std::uint32_t index);
+  void sweep(std::uint32_t index, Phase phase, SimTime limit);
+  void sweep_one(Transmission& transmission, Phase phase, Arrival& arrival);
+  void finish_arrival(Transmission& transmission, Arrival& arrival);
+  void end_of_sweeps(std::uint32_t index);
+  void update_medium(std::uint32_t node);
+  void release(std::uint32_t frame);
+  [[nodiscard]] bool meant_for(const MacFrame& frame, std::uint32_t node) const;
+  [[nodiscard]] std::uint32_t new_transmission();
+
+  std::uint64_t seed_;
+  const Standard* standard_;
+  MacParameters mac_;
+  std::unique_ptr<const ErrorModel> errors_;
+  ReceiverModel receiver_model_;
+  Channel channel_;
+  double floor_mw_;
+  Duration shortest_airtime_;
+  std::vector<AirNode> radios_;
+  PositionSource* positions_;
+  AirListener* listener_;
+
+  EventQueue<Step> queue_;
+  SimTime now_{};
+  std::uint64_t events_{0};
+  std::vector<Station> stations_;
+  std::vector<Transmission> transmissions_;
+  std::vector<std::uint32_t> free_transmissions_;
+  std::vector<Pending> pending_;
+  std::vector<std::uint32_t> free_pending_;
+};
+
+}  // namespace cuscus::netsim

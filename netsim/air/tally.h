@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstdint>
+
+#include "netsim/phy/receiver.h"
+
+namespace cuscus::netsim {
+
+/// What became of a node's frames since the run began.
+///
+/// Every offered frame ends in exactly one of: sent (group), acknowledged, dropped_*, or is still
+/// under way. Every transmission of a group frame counts once at every other node, as received or
+/// with the one cause of its loss; an individually addressed frame counts once at its destination,
+/// with the cause of its last attempt if none got through.
+struct Tally {
+  std::uint64_t offered{};
+  std::uint64_t transmissions{};  ///< Data frames put on the air, retries included.
+  std::uint64_t retries{};
+  std::uint64_t sent_group{};
+  std::uint64_t acknowledged{};
+  std::uint64_t received{};
+  std::uint64_t dropped_queue_full{};
+  std::uint64_t dropped_lifetime{};
+  std::uint64_t dropped_retry_limit{};
+  std::uint64_t lost_below_detection{};
+  std::uint64_t lost_noise{};
+  std::uint64_t lost_collision{};
+  std::uint64_t lost_half_duplex{};
+
+  void count(LossCause cause) {
+    switch (cause) {
+      case LossCause::kNone:
+        break;
+      case LossCause::kBelowDetection:
+        ++lost_below_detection;
+        break;
+      case LossCause::kNoise:
+        ++lost_noise;
+        break;
+      case LossCause::kCollision:
+        ++lost_collision;
+        break;
+      case LossCause::kHalfDuplex:
+        ++lost_half_duplex;
+        break;
+    }
+  }
+};
+
+}  // namespace cuscus::netsim

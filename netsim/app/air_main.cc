@@ -1,0 +1,183 @@
+// cuscus-air: the 802.11 simulator with synthetic or recorded traffic. Needs no privileges; one CSV
+// table on standard output.
+#include <spdlog/fmt/fmt.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "netsim/app/replay.h"
+#include "netsim/app/synthetic.h"
+
+namespace {
+
+using namespace cuscus;          // NOLINT(google-build-using-namespace): a main
+using namespace cuscus::netsim;  // NOLINT(google-build-using-namespace): a main
+
+struct Options {
+  SyntheticParameters run;
+  std::string traffic{"beacons"};
+  std::string layout{"equal"};
+  bool unicast{false};
+  double rate_mbps{6.0};
+  double group_rate_mbps{6.0};
+  double duration_s{5.0};
+  double period_ms{50.0};
+  double jitter_ms{0.0};
+  double slot_us{20.0};
+  double carrier_ghz{2.412};
+  double detection_dbm{-82.0};
+  double detection_sinr_db{4.0};
+  bool no_detection{false};
+  std::string replay_file;
+  std::string positions_file;
+};
+
+std::uint32_t kbps(double mbps) { return static_cast<std::uint32_t>(mbps * 1e3 + 0.5); }
+
+Duration nanoseconds(double seconds) {
+  return Duration{static_cast<Duration::rep>(seconds * 1e9 + 0.5)};
+}
+
+void add_options(CLI::App& app, Options& o) {
+  app.add_option("--traffic", o.traffic, "What is sent")
+      ->check(CLI::IsMember({"beacons", "saturated", "flow", "ping"}))
+      ->capture_default_str();
+  app.add_flag("--unicast", o.unicast, "To one neighbour each instead of to all");
+  app.add_option("-n,--nodes", o.run.senders, "Sending nodes")
+      ->check(CLI::Range(1, 5000))
+      ->capture_default_str();
+  app.add_option("--layout", o.layout, "Where the nodes are")
+      ->check(CLI::IsMember({"equal", "circle", "line"}))
+      ->capture_default_str();
+  app.add_option("--equal-power", o.run.layout.equal_power.value, "Layout 'equal' [dBm]")
+      ->capture_default_str();
+  app.add_option("--radius", o.run.layout.circle_radius_m, "Layout 'circle' [m]")
+      ->capture_default_str();
+  app.add_option("--distance", o.run.layout.line_spacing_m, "Layout 'line' [m]")
+      ->capture_default_str();
+  app.add_option("--model", o.run.air.channel.model, "Propagation")->capture_default_str();
+  app.add_option("--exponent", o.run.air.channel.exponent, "Of log-distance")
+      ->capture_default_str();
+  app.add_option("--alpha", o.run.air.channel.alpha, "Of paper-eq1")->capture_default_str();
+  app.add_option("--chi", o.run.air.channel.chi_db2, "Of paper-eq1: variance [dB^2]")
+      ->capture_default_str();
+  app.add_option("--carrier", o.carrier_ghz, "[GHz]")->capture_default_str();
+  app.add_option("--payload", o.run.traffic.udp_payload_bytes, "UDP payload [B]")
+      ->check(CLI::Range(1, 2268))
+      ->capture_default_str();
+  app.add_option("--period", o.period_ms, "Of beacons and flows [ms]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--jitter", o.jitter_ms, "Of beacons [ms]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--rate", o.rate_mbps, "Of individually addressed frames [Mb/s]")
+      ->capture_default_str();
+  app.add_option("--group-rate", o.group_rate_mbps, "Of group frames [Mb/s]")
+      ->capture_default_str();
+  app.add_option("--slot", o.slot_us, "[us]")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--detection-power", o.detection_dbm, "Preamble detection, least power [dBm]")
+      ->capture_default_str();
+  app.add_option("--detection-sinr", o.detection_sinr_db, "Preamble detection, least SINR [dB]")
+      ->capture_default_str();
+  app.add_flag("--no-detection", o.no_detection, "Every preamble is detected");
+  app.add_option("--seed", o.run.air.seed)->capture_default_str();
+  app.add_option("--duration", o.duration_s, "Measured, after 0.5 s of warm-up [s]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--replay", o.replay_file, "Frame log of a live run, to be simulated again")
+      ->check(CLI::ExistingFile);
+  app.add_option("--positions", o.positions_file,
+                 "For --replay: CSV time_ns,node,x_m,y_m,z_m; without it all are in range")
+      ->check(CLI::ExistingFile);
+}
+
+void apply(Options& o) {
+  static const std::map<std::string, Traffic::Kind> kTraffic{
+      {"beacons", Traffic::Kind::kBeacons},
+      {"saturated", Traffic::Kind::kSaturated},
+      {"flow", Traffic::Kind::kFlow},
+      {"ping", Traffic::Kind::kPing}};
+  static const std::map<std::string, Layout::Kind> kLayouts{{"equal", Layout::Kind::kEqualPower},
+                                                            {"circle", Layout::Kind::kCircle},
+                                                            {"line", Layout::Kind::kLine}};
+  AirParameters& air = o.run.air;
+  o.run.traffic.kind = kTraffic.at(o.traffic);
+  o.run.traffic.group = !o.unicast;
+  o.run.traffic.period = nanoseconds(o.period_ms * 1e-3);
+  o.run.traffic.jitter = nanoseconds(o.jitter_ms * 1e-3);
+  o.run.layout.kind = kLayouts.at(o.layout);
+  o.run.duration = nanoseconds(o.duration_s);
+  air.data_rate_kbps = kbps(o.rate_mbps);
+  air.group_rate_kbps = kbps(o.group_rate_mbps);
+  air.slot = nanoseconds(o.slot_us * 1e-6);
+  air.channel.carrier_hz = o.carrier_ghz * 1e9;
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  air.detection_minimum = {o.no_detection ? kNone : o.detection_dbm};
+  air.detection_minimum_sinr = {o.no_detection ? kNone : o.detection_sinr_db};
+}
+
+void print(const Options& o, const SyntheticResult& r, double wall_s) {
+  Tally sum;
+  for (const Tally& t : r.tallies) {
+    sum.lost_below_detection += t.lost_below_detection;
+    sum.lost_noise += t.lost_noise;
+    sum.lost_collision += t.lost_collision;
+    sum.lost_half_duplex += t.lost_half_duplex;
+    sum.dropped_queue_full += t.dropped_queue_full;
+    sum.dropped_lifetime += t.dropped_lifetime;
+    sum.dropped_retry_limit += t.dropped_retry_limit;
+  }
+  std::cout << "traffic,cast,layout,nodes,payload_B,rate_kbps,group_rate_kbps,seed,measure_s,"
+               "goodput_mbps,delivery_ratio,attempt_success,attempts_per_frame,drops_per_s,jain,"
+               "delay_mean_us,delay_p50_us,delay_p99_us,delay_max_us,round_trip_us,"
+               "lost_below_detection,lost_noise,lost_collision,lost_half_duplex,"
+               "dropped_queue_full,dropped_lifetime,dropped_retry_limit,receptions,events,wall_s\n"
+            << fmt::format(
+                   "{},{},{},{},{},{},{},{},{:.3f},{:.4f},{:.5f},{:.4f},{:.4f},{:.2f},{:.4f},"
+                   "{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{},{},{},{},{},{},{},{},{},{:.3f}\n",
+                   o.traffic, o.unicast ? "ucast" : "bcast", o.layout, o.run.senders,
+                   o.run.traffic.udp_payload_bytes, o.run.air.data_rate_kbps,
+                   o.run.air.group_rate_kbps, o.run.air.seed, o.duration_s, r.goodput_mbps,
+                   r.delivery_ratio, r.attempt_success, r.attempts_per_frame, r.drops_per_s, r.jain,
+                   r.delay_mean_us, r.delay_p50_us, r.delay_p99_us, r.delay_max_us,
+                   r.round_trip_mean_us, sum.lost_below_detection, sum.lost_noise,
+                   sum.lost_collision, sum.lost_half_duplex, sum.dropped_queue_full,
+                   sum.dropped_lifetime, sum.dropped_retry_limit, r.receptions, r.events, wall_s);
+}
+
+int run(int argc, char** argv) {
+  Options options;
+  CLI::App app{"Simulates an 802.11g ad hoc network with synthetic traffic; prints CSV.",
+               "cuscus-air"};
+  add_options(app, options);
+  CLI11_PARSE(app, argc, argv);
+  apply(options);
+  if (!options.replay_file.empty()) {
+    const ReplayLog log = read_replay_log(options.replay_file, options.positions_file);
+    print_replay(std::cout, log, replay(log, options.run.air, options.run.layout.equal_power));
+    return 0;
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const SyntheticResult result = run_synthetic(options.run);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  print(options, result, wall.count());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "cuscus-air: " << error.what() << '\n';
+    return 2;
+  }
+}

@@ -1,0 +1,43 @@
+#include "netsim/app/ethernet.h"
+
+#include "netsim/mac/dcf.h"
+#include "netsim/phy/standard.h"
+
+namespace cuscus::netsim {
+namespace {
+
+/// Types below are lengths (IEEE Std 802.3, 3.2.6).
+constexpr std::uint32_t kFirstType = 0x0600;
+
+}  // namespace
+
+std::optional<EthernetDestination> parse_ethernet(std::span<const std::uint8_t> head,
+                                                  std::uint32_t frame_bytes) {
+  if (frame_bytes < kEthernetHeaderBytes || head.size() < kEthernetHeaderBytes ||
+      frame_bytes - kEthernetHeaderBytes + kLlcSnapBytes > kMaximumMsduBytes) {
+    return std::nullopt;
+  }
+  const std::uint32_t type = (std::uint32_t{head[12]} << 8U) | head[13];
+  if (type < kFirstType) {
+    return std::nullopt;
+  }
+  return EthernetDestination{.address = mac_address(head.first<6>()), .group = (head[0] & 1U) != 0};
+}
+
+std::uint64_t mac_address(std::span<const std::uint8_t, 6> octets) {
+  std::uint64_t address = 0;
+  for (const std::uint8_t octet : octets) {
+    address = (address << 8U) | octet;
+  }
+  return address;
+}
+
+std::int32_t AddressBook::destination(const EthernetDestination& destination) const {
+  if (destination.group) {
+    return kGroup;
+  }
+  const auto found = nodes_.find(destination.address);
+  return found == nodes_.end() ? kNobody : static_cast<std::int32_t>(found->second);
+}
+
+}  // namespace cuscus::netsim

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/units/sim_time.h"
+
+namespace cuscus::netsim {
+
+/// A copy of a frame that is due at a receiver.
+struct DueCopy {
+  std::uint32_t frame;
+  std::uint32_t receiver;
+  SimTime due;
+};
+
+/// A frame between its send and the last copy of it.
+struct LiveFrame {
+  enum class Payload : std::uint8_t { kAwaited, kHere, kLost };
+
+  std::uint32_t node{};
+  std::uint32_t frame_bytes{};
+  std::int64_t sent_ns{};
+  Payload payload{Payload::kAwaited};
+  bool air_done{false};       ///< The air needs it no more.
+  std::uint32_t copies{0};    ///< Due and not written yet.
+  std::vector<DueCopy> late;  ///< Due while the payload is still awaited.
+  std::vector<std::uint8_t> bytes;
+
+  [[nodiscard]] bool over() const {
+    return air_done && copies == 0 && payload != Payload::kAwaited;
+  }
+};
+
+/// Frames by number; numbers and buffers are used again.
+class FrameStore {
+ public:
+  [[nodiscard]] std::uint32_t add(std::uint32_t node, std::uint32_t frame_bytes,
+                                  std::int64_t sent_ns) {
+    std::uint32_t number = 0;
+    if (free_.empty()) {
+      number = static_cast<std::uint32_t>(frames_.size());
+      frames_.emplace_back();
+    } else {
+      number = free_.back();
+      free_.pop_back();
+    }
+    LiveFrame& frame = frames_[number];
+    frame.node = node;
+    frame.frame_bytes = frame_bytes;
+    frame.sent_ns = sent_ns;
+    frame.payload = LiveFrame::Payload::kAwaited;
+    frame.air_done = false;
+    frame.copies = 0;
+    frame.late.clear();
+    frame.bytes.clear();
+    return number;
+  }
+
+  [[nodiscard]] LiveFrame& operator[](std::uint32_t number) { return frames_[number]; }
+
+  /// Gives the number back if its frame is over.
+  void drop_if_over(std::uint32_t number) {
+    if (frames_[number].over()) {
+      free_.push_back(number);
+    }
+  }
+
+  [[nodiscard]] std::size_t in_use() const { return frames_.size() - free_.size(); }
+
+ private:
+  std::vector<LiveFrame> frames_;
+  std::vector<std::uint32_t> free_;
+};
+
+}  // namespace cuscus::netsim

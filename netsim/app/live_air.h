@@ -1,0 +1,134 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "netsim/air/air.h"
+#include "netsim/app/duration_histogram.h"
+#include "netsim/app/ethernet.h"
+#include "netsim/app/frame_log.h"
+#include "netsim/app/frame_store.h"
+#include "netsim/app/stamp_matcher.h"
+#include "netsim/app/stamp_ring.h"
+#include "netsim/app/tap_port.h"
+#include "proto/report.pb.h"
+#include "proto/shm/radio_memory.h"
+
+namespace cuscus::netsim {
+
+/// What a live run needs; node i of `air` has address i and TAP i.
+struct LiveSetup {
+  AirParameters air;
+  std::vector<std::uint64_t> addresses;
+  std::vector<posix::UniqueFd> taps;    ///< An empty one: a node without interface.
+  std::unique_ptr<StampRing> stamps;    ///< None: frames are taken as sent when they are read.
+  std::unique_ptr<FrameLog> log;        ///< None: no log.
+  std::span<std::byte> radio_memory{};  ///< Empty: nothing is published.
+};
+
+/// Whoever runs a LiveAir.
+class LiveOwner {
+ public:
+  virtual ~LiveOwner() = default;
+  /// Polled; when it is readable, should_stop() is asked.
+  [[nodiscard]] virtual int fd() const = 0;
+  [[nodiscard]] virtual bool should_stop() = 0;
+  /// Twice a second.
+  virtual void beat(SimTime now) = 0;
+};
+
+/// The air between real interfaces: see docs/adr/0003-ingress-and-release.md.
+///
+/// One thread does everything but the frame log. Frames enter the simulation at the time at which
+/// they were sent; no event runs before its time; copies are written one at a time, the ring of
+/// send stamps being drained and due events run in between.
+class LiveAir final : private AirListener {
+ public:
+  /// @throws std::invalid_argument, std::system_error.
+  LiveAir(LiveSetup setup, PositionSource& positions);
+
+  /// Forgets what was sent so far and takes `start_monotonic_ns` for SimTime 0. Then run() until
+  /// the owner wants to stop.
+  void run(std::int64_t start_monotonic_ns, LiveOwner& owner);
+
+  /// Valid after run().
+  [[nodiscard]] proto::RadioReport report() const;
+  [[nodiscard]] shm::RadioTally tally(std::uint32_t node) const;
+
+ private:
+  struct Port {
+    explicit Port(posix::UniqueFd fd) : tap{std::move(fd)} {}
+    TapPort tap;
+    StampMatcher matcher;
+    std::vector<std::uint8_t> held;  ///< A frame that waits for its stamp to be written.
+    std::uint64_t malformed{0};
+    std::uint64_t before_air{0};
+    std::uint64_t lost_interface{0};
+    bool failure_logged{false};
+  };
+
+  // AirListener
+  void delivered(const Delivery& delivery) override;
+  void finished(const FrameReport& report) override;
+
+  [[nodiscard]] std::int64_t now_ns() const;
+  void forget_the_past();
+  void step(LiveOwner& owner);
+  void run_due_events();
+  void wait(LiveOwner& owner, std::int64_t now);
+  void sleep(LiveOwner& owner, std::int64_t timeout_ns);
+
+  void drain_stamps();
+  void take(const shm::SendStamp& stamp);
+  void offer(std::uint32_t frame, std::span<const std::uint8_t> head, std::int64_t entered_ns);
+
+  bool service_taps();
+  bool read_tap(std::uint32_t node);
+  bool take(std::uint32_t node, std::span<const std::uint8_t> bytes);
+  void arrived(std::uint32_t frame, std::span<const std::uint8_t> bytes);
+  void lost(std::span<const std::uint32_t> frames);
+  void write_one_copy();
+
+  void housekeep(LiveOwner& owner, std::int64_t now);
+  void publish(std::uint32_t first, std::uint32_t count);
+  void publish_timing();
+
+  AddressBook addresses_;
+  std::vector<Port> ports_;
+  std::unique_ptr<StampRing> stamps_;
+  std::unique_ptr<FrameLog> log_;
+  std::optional<shm::RadioMemoryWriter> radio_memory_;
+  Air air_;
+  posix::UniqueFd wake_;  ///< epoll: owner and stamps, or owner and TAPs.
+  posix::UniqueFd taps_;  ///< epoll: all TAPs.
+
+  std::int64_t start_ns_{0};
+  bool stop_{false};
+  FrameStore frames_;
+  std::deque<DueCopy> copies_;
+  std::uint64_t late_copies_{0};  ///< In LiveFrame::late, of all frames.
+  std::uint64_t awaited_{0};      ///< Frames whose payload has not been read.
+  std::uint32_t held_{0};
+  std::vector<std::uint8_t> buffer_;
+
+  std::int64_t service_at_{0};
+  std::int64_t service_ns_{0};
+  std::int64_t housekeep_at_{0};
+  std::int64_t beat_at_{0};
+  std::int64_t slept_at_{0};
+  std::uint32_t publish_next_{0};
+  std::uint64_t ticks_{0};
+
+  DurationHistogram ingress_delay_;
+  DurationHistogram release_lateness_;
+  DurationHistogram clamp_;
+  std::uint64_t unstamped_{0};
+  std::string scheduler_;
+  double cpu_s_{0.0};
+};
+
+}  // namespace cuscus::netsim

@@ -1,0 +1,178 @@
+// How frames enter: LiveAir's other half.
+#include <spdlog/spdlog.h>
+#include <sys/epoll.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include "netsim/app/live_air.h"
+
+namespace cuscus::netsim {
+namespace {
+
+/// Frames read from one TAP in a row: a node that floods must not keep the others waiting.
+constexpr int kReadBudget = 32;
+
+}  // namespace
+
+void LiveAir::drain_stamps() {
+  if (!stamps_) {
+    return;
+  }
+  while (const auto stamp = stamps_->reader().next()) {
+    take(*stamp);
+  }
+}
+
+void LiveAir::take(const shm::SendStamp& stamp) {
+  if (stamp.node >= ports_.size()) {
+    return;
+  }
+  const std::int64_t sent_ns = static_cast<std::int64_t>(stamp.monotonic_ns) - start_ns_;
+  const std::uint32_t frame = frames_.add(stamp.node, stamp.frame_bytes, sent_ns);
+  ports_[stamp.node].matcher.expect(frame, stamp);
+  ++awaited_;
+  const std::size_t head = std::min(stamp.frame_bytes, shm::SendStamp::kHeadBytes);
+  offer(frame, std::span{stamp.head}.first(head), now_ns());
+}
+
+/// Hands a frame to the MAC at the time at which it was sent.
+void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
+                    std::int64_t entered_ns) {
+  LiveFrame& live = frames_[frame];
+  const auto destination = parse_ethernet(head, live.frame_bytes);
+  if (!destination) {
+    ++ports_[live.node].malformed;
+    live.air_done = true;
+    frames_.drop_if_over(frame);
+    return;
+  }
+  ingress_delay_.add(entered_ns - live.sent_ns);
+  if (live.sent_ns < to_ns(air_.now())) {
+    clamp_.add(to_ns(air_.now()) - live.sent_ns);
+  }
+  air_.offer(live.node, sim_time(live.sent_ns),
+             {.id = frame,
+              .destination = addresses_.destination(*destination),
+              .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes)});
+}
+
+/// Reads every TAP that has something, a bounded number of frames each; false when none had.
+bool LiveAir::service_taps() {
+  constexpr int kPorts = 64;
+  bool any = false;
+  if (held_ > 0) {
+    for (std::uint32_t node = 0; node < ports_.size(); ++node) {
+      if (!ports_[node].held.empty()) {
+        any = read_tap(node) || any;
+      }
+    }
+  }
+  std::array<::epoll_event, kPorts> events{};
+  const int count = ::epoll_wait(taps_.get(), events.data(), kPorts, 0);
+  for (int i = 0; i < count; ++i) {
+    const std::uint32_t node = events.at(static_cast<std::size_t>(i)).data.u32;
+    any = read_tap(node) || any;
+    Port& port = ports_[node];
+    const bool hung_up =
+        (events.at(static_cast<std::size_t>(i)).events & (EPOLLERR | EPOLLHUP)) != 0;
+    if ((port.tap.failed() != 0 || hung_up) && !port.failure_logged) {
+      port.failure_logged = true;
+      // Left in the set it would wake us for ever.
+      static_cast<void>(::epoll_ctl(taps_.get(), EPOLL_CTL_DEL, port.tap.fd(), nullptr));
+      spdlog::warn("node {}: its TAP failed (errno {}); the node is silent from now on", node,
+                   port.tap.failed());
+    }
+  }
+  return any;
+}
+
+/// False when there was nothing to read.
+bool LiveAir::read_tap(std::uint32_t node) {
+  if (ports_[node].tap.fd() < 0) {
+    return false;
+  }
+  if (!ports_[node].held.empty()) {
+    std::vector<std::uint8_t> held;
+    held.swap(ports_[node].held);
+    --held_;
+    if (!take(node, held)) {
+      return true;
+    }
+  }
+  for (int budget = kReadBudget; budget > 0; --budget) {
+    const auto bytes = ports_[node].tap.read(buffer_);
+    if (!bytes) {
+      return budget < kReadBudget;
+    }
+    if (!take(node, *bytes)) {
+      return true;
+    }
+  }
+  return true;
+}
+
+/// A frame came out of a TAP. False when it has to wait for its stamp.
+bool LiveAir::take(std::uint32_t node, std::span<const std::uint8_t> bytes) {
+  Port& port = ports_[node];
+  if (stamps_) {
+    auto match = port.matcher.match(bytes);
+    if (!match.token) {
+      drain_stamps();  // the stamp was written before the frame: it may have come meanwhile
+      match = port.matcher.match(bytes);
+    }
+    lost(match.lost);
+    if (match.token) {
+      arrived(*match.token, bytes);
+      return true;
+    }
+    if (stamps_->reader().blocked()) {
+      port.held.assign(bytes.begin(), bytes.end());
+      ++held_;
+      return false;
+    }
+    ++unstamped_;
+  }
+  const std::int64_t now = now_ns();
+  const std::uint32_t frame = frames_.add(node, static_cast<std::uint32_t>(bytes.size()), now);
+  frames_[frame].bytes.assign(bytes.begin(), bytes.end());
+  frames_[frame].payload = LiveFrame::Payload::kHere;
+  offer(frame, bytes, now);
+  return true;
+}
+
+/// The bytes of a frame that is known already.
+void LiveAir::arrived(std::uint32_t frame, std::span<const std::uint8_t> bytes) {
+  LiveFrame& live = frames_[frame];
+  live.payload = LiveFrame::Payload::kHere;
+  --awaited_;
+  if (live.over()) {
+    frames_.drop_if_over(frame);
+    return;
+  }
+  live.bytes.assign(bytes.begin(), bytes.end());
+  late_copies_ -= live.late.size();
+  copies_.insert(copies_.begin(), live.late.begin(), live.late.end());
+  live.late.clear();
+}
+
+/// Frames that were stamped and will never come.
+void LiveAir::lost(std::span<const std::uint32_t> frames) {
+  for (const std::uint32_t frame : frames) {
+    LiveFrame& live = frames_[frame];
+    live.payload = LiveFrame::Payload::kLost;
+    --awaited_;
+    ++ports_[live.node].before_air;
+    for (const DueCopy& copy : live.late) {
+      ++ports_[copy.receiver].lost_interface;
+      --live.copies;
+    }
+    late_copies_ -= live.late.size();
+    live.late.clear();
+    frames_.drop_if_over(frame);
+  }
+}
+
+}  // namespace cuscus::netsim

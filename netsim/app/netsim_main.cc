@@ -1,0 +1,153 @@
+// cuscus-netsim: the air between the interfaces of a run. Started by the orchestrator, which gives
+// it everything it works with; needs no privileges of its own.
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "common/ipc/child_session.h"
+#include "common/log/log.h"
+#include "common/posix/scheduling.h"
+#include "common/posix/shared_memory.h"
+#include "netsim/app/fleet_positions.h"
+#include "netsim/app/live_air.h"
+#include "netsim/app/radio_configuration.h"
+#include "proto/shm/clock_page.h"
+
+namespace {
+
+using cuscus::SimTime;
+using cuscus::ipc::ChildSession;
+using cuscus::posix::MemoryMapping;
+namespace netsim = cuscus::netsim;
+namespace posix = cuscus::posix;
+namespace proto = cuscus::proto;
+namespace shm = cuscus::shm;
+
+/// Joins the live air to the orchestrator, and watches that the world moves.
+class Session final : public netsim::LiveOwner {
+ public:
+  Session(ChildSession& child, const shm::FleetMemoryReader& fleet)
+      : child_{&child}, fleet_{&fleet} {}
+
+  [[nodiscard]] int fd() const override { return child_->fd(); }
+  [[nodiscard]] bool should_stop() override { return child_->stop_requested(); }
+
+  void beat(SimTime now) override {
+    child_->beat(cuscus::to_ns(now));
+    const std::uint64_t steps = fleet_->steps();
+    if (steps != steps_) {
+      steps_ = steps;
+      moved_at_ = now;
+    } else if (now - moved_at_ > std::chrono::seconds{1} && !warned_) {
+      warned_ = true;
+      spdlog::warn("the world has stood still at step {} for {:.1f} s: positions are old", steps,
+                   cuscus::to_seconds(now - moved_at_));
+    }
+  }
+
+ private:
+  ChildSession* child_;
+  const shm::FleetMemoryReader* fleet_;
+  std::uint64_t steps_{0};
+  SimTime moved_at_{};
+  bool warned_{false};
+};
+
+/// What the descriptors give, alive as long as the run.
+struct Memories {
+  MemoryMapping clock;
+  MemoryMapping fleet;
+  MemoryMapping radio;
+};
+
+netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfiguration& configuration,
+                             Memories& memories) {
+  using Kind = proto::Descriptors;
+  netsim::LiveSetup setup;
+  setup.air = netsim::air_parameters(configuration);
+  memories.clock = MemoryMapping::read_only(session.take(Kind::KIND_CLOCK_PAGE));
+  memories.fleet = MemoryMapping::read_only(session.take(Kind::KIND_FLEET_MEMORY));
+  memories.radio = MemoryMapping::read_write(session.take(Kind::KIND_RADIO_MEMORY));
+  setup.radio_memory = memories.radio.writable_bytes();
+  const auto nodes = static_cast<std::uint32_t>(configuration.nodes_size());
+  const std::size_t radio_bytes = shm::RadioMemoryWriter::byte_size(nodes);
+  if (setup.radio_memory.size() < radio_bytes) {
+    throw std::runtime_error{"radio memory is too small for " + std::to_string(nodes) + " nodes"};
+  }
+  setup.radio_memory = setup.radio_memory.first(radio_bytes);
+  for (const proto::RadioNode& node : configuration.nodes()) {
+    const auto* const octets = reinterpret_cast<const std::uint8_t*>(node.mac().data());
+    setup.addresses.push_back(netsim::mac_address(std::span<const std::uint8_t, 6>{octets, 6}));
+    auto tap = session.take_if_given(Kind::KIND_TAP, node.node());
+    if (!tap) {
+      spdlog::warn("node {} ('{}') has no TAP and stays silent", node.node(), node.name());
+    }
+    setup.taps.push_back(tap ? std::move(*tap) : posix::UniqueFd{});
+  }
+  if (auto ring = session.take_if_given(Kind::KIND_SEND_STAMP_RING)) {
+    setup.stamps = std::make_unique<netsim::StampRing>(std::move(*ring));
+  } else {
+    spdlog::warn("no send stamps: frames are taken as sent when they are read from the TAP");
+  }
+  if (auto log = session.take_if_given(Kind::KIND_FRAME_LOG)) {
+    setup.log = std::make_unique<netsim::FrameLog>(std::move(*log), setup.air);
+  }
+  return setup;
+}
+
+void serve(ChildSession& session) {
+  const proto::Configure configure = session.await_configuration();
+  if (!configure.has_radio()) {
+    throw std::runtime_error{"the configuration is not a radio's"};
+  }
+  const proto::RadioConfiguration& configuration = configure.radio();
+  Memories memories;
+  netsim::LiveSetup setup = take_setup(session, configuration, memories);
+  const shm::ClockPageReader clock{memories.clock.bytes()};
+  const shm::FleetMemoryReader fleet{memories.fleet.bytes()};
+  netsim::FleetPositions positions{fleet, static_cast<std::uint32_t>(configuration.nodes_size())};
+  netsim::LiveAir air{std::move(setup), positions};
+  session.ready();
+
+  if (const auto start_ns = session.await_start()) {
+    if (configuration.realtime_priority() > 0 &&
+        !posix::try_realtime_scheduling(configuration.realtime_priority())) {
+      spdlog::warn("SCHED_FIFO {} was refused: releases may be late",
+                   configuration.realtime_priority());
+    }
+    if (!posix::try_lock_memory()) {
+      spdlog::warn("memory could not be locked: page faults may delay releases");
+    }
+    Session owner{session, fleet};
+    air.run(*start_ns, owner);
+  }
+  proto::Report report;
+  *report.mutable_radio() = air.report();
+  session.report(report);
+}
+
+}  // namespace
+
+int main() {
+  std::optional<ChildSession> session;
+  try {
+    cuscus::log::start("netsim");
+    session = ChildSession::from_environment();
+    serve(*session);
+    return 0;
+  } catch (const cuscus::ipc::PeerError& error) {
+    spdlog::error("{}", error.what());
+    return 1;
+  } catch (const std::exception& error) {
+    try {
+      spdlog::error("{}", error.what());
+      if (session) {
+        session->fail(error.what());
+      }
+    } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): nobody is left to tell
+    }
+    return 1;
+  }
+}

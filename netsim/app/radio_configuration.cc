@@ -1,0 +1,49 @@
+#include "netsim/app/radio_configuration.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace cuscus::netsim {
+
+AirParameters air_parameters(const proto::RadioConfiguration& c) {
+  AirParameters air;
+  air.seed = c.seed();
+  air.standard = c.standard();
+  air.data_rate_kbps = c.data_rate_kbps();
+  air.group_rate_kbps = c.group_rate_kbps();
+  air.basic_rates_kbps.assign(c.basic_rates_kbps().begin(), c.basic_rates_kbps().end());
+  air.noise_figure = {c.noise_figure_db()};
+  air.slot = Duration{c.slot_ns()};
+  air.retry_limit = c.retry_limit();
+  air.queue_frames = c.queue_frames();
+  air.queue_lifetime = Duration{c.queue_lifetime_ns()};
+  air.error_model = c.error_model();
+  air.cca_preamble = {c.cca_preamble_dbm()};
+  air.cca_energy = {c.cca_energy_dbm()};
+  air.detection_minimum = {c.detection_minimum_dbm()};
+  air.detection_minimum_sinr = {c.detection_minimum_sinr_db()};
+  const proto::PropagationConfiguration& p = c.propagation();
+  air.channel = {.model = p.model(),
+                 .carrier_hz = c.carrier_hz(),
+                 .exponent = p.exponent(),
+                 .reference_loss = {p.reference_loss_db()},
+                 .alpha = p.alpha(),
+                 .chi_db2 = p.chi_db2(),
+                 .seed = c.seed()};
+  air.nodes.resize(static_cast<std::size_t>(c.nodes_size()));
+  for (int i = 0; i < c.nodes_size(); ++i) {
+    const proto::RadioNode& node = c.nodes(i);
+    if (node.node() != static_cast<std::uint32_t>(i)) {
+      throw std::invalid_argument{"radio: nodes must be numbered 0, 1, 2, ... in order; '" +
+                                  node.name() + "' is " + std::to_string(node.node())};
+    }
+    if (node.mac().size() != 6) {
+      throw std::invalid_argument{"radio: the address of '" + node.name() + "' must have 6 octets"};
+    }
+    air.nodes[static_cast<std::size_t>(i)] = {.tx_power = {node.tx_power_dbm()},
+                                              .antenna_gain = {node.antenna_gain_db()}};
+  }
+  return air;
+}
+
+}  // namespace cuscus::netsim

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "netsim/app/frame_record.h"
+
+namespace cuscus::netsim {
+
+/// A node's position from an instant on.
+struct PositionRecord {
+  std::int64_t time_ns;
+  std::uint32_t node;
+  Eigen::Vector3d p_WN;
+};
+
+/// A live run as its frame log tells it.
+struct ReplayLog {
+  AirParameters air;                      ///< What the log's header says; the rest is default.
+  std::vector<FrameRecord> frames;        ///< By send time.
+  std::vector<PositionRecord> positions;  ///< By time; empty: all in range.
+};
+
+/// @throws std::runtime_error naming file and line. `positions_path` may be empty.
+[[nodiscard]] ReplayLog read_replay_log(const std::string& path, const std::string& positions_path);
+
+/// Frames of one kind, in the live run or in its simulation.
+struct ReplaySum {
+  std::uint64_t frames{};
+  std::uint64_t attempts{};
+  std::uint64_t deliveries{};
+  std::uint64_t frames_delivered{};  ///< To at least one node.
+  double delay_sum_us{};             ///< Send to first delivery.
+};
+
+struct ReplayResult {
+  struct Cast {
+    ReplaySum live;
+    ReplaySum simulated;
+  };
+  Cast group;
+  Cast individual;
+  std::vector<Tally> tallies;
+};
+
+/// Simulates the log's sends. Seed, models and carrier are taken from `air`, the rest from the log;
+/// without positions every link has `equal_power`.
+[[nodiscard]] ReplayResult replay(const ReplayLog& log, const AirParameters& air,
+                                  DecibelMilliwatt equal_power);
+
+/// A CSV table: one line per cast and side.
+void print_replay(std::ostream& out, const ReplayLog& log, const ReplayResult& result);
+
+}  // namespace cuscus::netsim

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "netsim/air/air.h"
+
+namespace cuscus::netsim {
+
+/// Where synthetic nodes stand.
+struct Layout {
+  enum class Kind : std::uint8_t { kEqualPower, kCircle, kLine };
+  Kind kind{Kind::kEqualPower};
+  DecibelMilliwatt equal_power{-50.0};  ///< Every link, by a fixed loss.
+  double circle_radius_m{10.0};
+  double line_spacing_m{100.0};
+};
+
+/// What synthetic nodes send.
+struct Traffic {
+  enum class Kind : std::uint8_t {
+    kBeacons,    ///< Every node broadcasts with a period, at a random phase.
+    kSaturated,  ///< Every sender always has a frame waiting.
+    kFlow,       ///< Node 0 sends to node 1 with a period.
+    kPing  ///< Node 0 sends to node 1, which answers at once; node 0 sends the next a period on.
+  };
+  Kind kind{Kind::kBeacons};
+  bool group{true};
+  std::uint32_t udp_payload_bytes{64};
+  Duration period{std::chrono::milliseconds{50}};
+  Duration jitter{0};  ///< Per beacon, uniform.
+};
+
+struct SyntheticParameters {
+  AirParameters air;         ///< `nodes` and, for equal power, `channel` are filled in.
+  std::uint32_t senders{2};  ///< There is a second node where this is 1.
+  Layout layout;
+  Traffic traffic;
+  Duration warm_up{std::chrono::milliseconds{500}};
+  Duration duration{std::chrono::seconds{5}};  ///< Measured, after the warm-up.
+};
+
+struct SyntheticResult {
+  double goodput_mbps{};     ///< UDP payload, of all senders; of group frames per receiver.
+  double delivery_ratio{};   ///< Group: per receiver. Individually addressed: of finished frames.
+  double attempt_success{};  ///< Acknowledged per attempt.
+  double attempts_per_frame{};
+  double drops_per_s{};  ///< By the retry limit.
+  double jain{};         ///< Fairness of the senders' goodputs.
+  double delay_mean_us{};
+  double delay_p50_us{};
+  double delay_p99_us{};
+  double delay_max_us{};
+  double round_trip_mean_us{};  ///< Ping only.
+  std::uint64_t receptions{};
+  std::uint64_t events{};
+  std::vector<Tally> tallies;  ///< Of the whole run, warm-up included.
+};
+
+/// PSDU of a UDP datagram over IPv4.
+[[nodiscard]] constexpr std::uint32_t psdu_bytes_of_udp(std::uint32_t payload_bytes) {
+  constexpr std::uint32_t kIpAndUdpBytes = 28;
+  return payload_bytes + kIpAndUdpBytes + kLlcSnapBytes + kDataHeaderBytes + kFcsBytes;
+}
+
+/// Simulates, as fast as it goes.
+/// @throws std::invalid_argument as Air does.
+[[nodiscard]] SyntheticResult run_synthetic(const SyntheticParameters& parameters);
+
+}  // namespace cuscus::netsim

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "common/random/counter_stream.h"
+#include "common/units/sim_time.h"
+#include "netsim/phy/standard.h"
+
+namespace cuscus::netsim {
+
+/// To whom a frame goes: a node's number, or one of these.
+inline constexpr std::int32_t kGroup = -1;   ///< Broadcast or multicast.
+inline constexpr std::int32_t kNobody = -2;  ///< An address that no node has.
+
+/// A frame in a station's queue.
+struct Msdu {
+  std::uint32_t frame{};  ///< The caller's number for it.
+  std::int32_t destination{kGroup};
+  std::uint32_t psdu_bytes{};
+  SimTime queued_at{};
+};
+
+/// A frame on the air.
+struct MacFrame {
+  enum class Kind : std::uint8_t { kData, kAck };
+  Kind kind{Kind::kData};
+  std::uint32_t sender{};
+  std::int32_t receiver{kGroup};
+  std::uint32_t frame{};     ///< Of the Msdu; data only.
+  std::uint32_t sequence{};  ///< Per sender, kept in retries; data only.
+  Duration duration{};  ///< The Duration field: for how long after its end the medium is taken.
+};
+
+/// What became of an Msdu at its sender.
+enum class SendOutcome : std::uint8_t {
+  kSent,          ///< Group frame: put on the air once.
+  kAcknowledged,  ///< Individually addressed: confirmed.
+  kQueueFull,
+  kLifetime,  ///< Waited too long for its first attempt.
+  kRetryLimit,
+};
+
+/// Of a station; all stations of a run share one.
+struct MacParameters {
+  Duration slot{};
+  Duration sifs{};
+  Duration difs{};
+  Duration eifs{};
+  Duration ack_timeout{};  ///< From the end of one's own frame to giving up on PHY-RXSTART.
+  std::uint32_t cw_min{};
+  std::uint32_t cw_max{};
+  std::uint32_t retry_limit{};  ///< Attempts per frame.
+  std::uint32_t queue_frames{};
+  Duration queue_lifetime{};  ///< Until the first attempt; after that the retry limit rules.
+  const Mode* data_mode{};
+  const Mode* group_mode{};
+  const Mode* ack_mode{};
+  const Mode* group_ack_mode{};  ///< Answers whatever arrives at the group rate.
+
+  /// DIFS, EIFS, timeout and control rates that follow from a standard and its basic rates.
+  [[nodiscard]] static MacParameters from(const Standard& standard, Duration slot,
+                                          std::uint32_t data_rate_kbps,
+                                          std::uint32_t group_rate_kbps,
+                                          std::span<const std::uint32_t> basic_rates_kbps);
+};
+
+enum class MacTimer : std::uint8_t { kAccess, kResponse, kAckTimeout };
+inline constexpr std::size_t kMacTimers = 3;
+
+/// What a station asks of the world around it.
+class MacHost {
+ public:
+  virtual ~MacHost() = default;
+
+  /// Puts a frame on the air at once. The host calls transmission_ended() after its airtime.
+  virtual void transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
+                        std::uint32_t psdu_bytes) = 0;
+  /// Calls timer() at `time`; replaces the timer of that kind.
+  virtual void set_timer(std::uint32_t node, MacTimer timer, SimTime time) = 0;
+  virtual void cancel_timer(std::uint32_t node, MacTimer timer) = 0;
+  /// The station is done with an Msdu.
+  virtual void finished(std::uint32_t node, const Msdu& msdu, SendOutcome outcome,
+                        std::uint32_t attempts) = 0;
+};
+
+/// One station's distributed coordination function (IEEE Std 802.11-2016, 10.3).
+///
+/// - A frame that finds an idle medium and no backoff pending goes out when the medium has stayed
+/// idle
+///   for DIFS since the frame was queued (and DIFS or EIFS since it was last busy) [10.3.4.2].
+///   Found busy, or interrupted meanwhile, it draws a backoff. A station's own ACK delays it but is
+///   no such interruption: a reply to a frame follows that frame's ACK after DIFS.
+/// - Backoff: uniform in 0 ... CW slots, counted down while the medium is idle, frozen while it is
+///   busy, resumed after DIFS, or EIFS after a reception that failed, ended early by one that
+///   succeeds.
+/// - After every transmission a backoff is drawn, whether or not a frame waits (post-backoff).
+/// - CW doubles after a missing ACK and returns to its minimum on success and on giving up.
+/// - Every decoded frame for others sets the NAV from its Duration field. A wait for an ACK ends at
+///   the timeout, or with the reception that had begun by then.
+/// - Receivers acknowledge after SIFS whatever the medium does, and drop repeated frames of a
+/// sender.
+///
+/// Times must not decrease from call to call.
+class Dcf {
+ public:
+  Dcf(std::uint32_t node, const MacParameters& parameters, MacHost& host,
+      random::CounterStream backoffs);
+
+  void enqueue(SimTime now, const Msdu& msdu);
+
+  // What the PHY says.
+  void medium_busy(SimTime now);
+  void medium_idle(SimTime now);
+  void reception_started(SimTime now);  ///< SIGNAL field decoded: PHY-RXSTART.
+  void reception_failed(SimTime now);
+  /// True when the frame is for this station and is not a repetition.
+  bool received(SimTime now, const MacFrame& frame, const Mode& mode);
+  void transmission_ended(SimTime now);
+
+  void timer(SimTime now, MacTimer timer);
+
+  [[nodiscard]] std::size_t queued() const { return queue_.size(); }
+  [[nodiscard]] std::uint32_t contention_window() const { return cw_; }
+
+ private:
+  enum class Sending : std::uint8_t { kNothing, kData, kAck };
+
+  [[nodiscard]] SimTime countdown_begins() const;
+  [[nodiscard]] SimTime access_time() const;
+  void count_down(SimTime now);
+  void draw_backoff(SimTime now);
+  void schedule_access(SimTime now);
+  void access(SimTime now);
+  void respond(SimTime now);
+  void ack_missing(SimTime now);
+  void complete(SimTime now, SendOutcome outcome);
+
+  std::uint32_t node_;
+  const MacParameters* parameters_;
+  MacHost* host_;
+  random::CounterStream backoffs_;
+  std::uint64_t draw_{0};
+
+  std::deque<Msdu> queue_;  ///< The front one is being sent.
+  std::uint32_t attempts_{0};
+  std::uint32_t sequence_{0};
+  std::uint32_t cw_;
+
+  // Access. `slots_` remain; they are counted from countdown_begins().
+  bool contending_{false};  ///< A backoff (or immediate access) is under way.
+  bool immediate_{false};   ///< No backoff was drawn: an interruption draws one.
+  bool access_set_{false};
+  std::uint32_t slots_{0};
+  SimTime not_before_{};
+
+  // The medium.
+  bool busy_{false};
+  Sending sending_{Sending::kNothing};
+  SimTime idle_since_{};
+  SimTime nav_until_{};
+  SimTime eifs_until_{};  ///< End of an EIFS, less DIFS.
+
+  // The exchange.
+  bool awaiting_ack_{false};
+  bool receiving_{false};
+  bool response_due_{false};
+  MacFrame response_{};
+  const Mode* response_mode_{nullptr};
+  std::vector<std::uint32_t> last_sequence_;  ///< By sender; 0: none.
+};
+
+}  // namespace cuscus::netsim

@@ -1,0 +1,193 @@
+#include "netsim/phy/receiver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/units/constants.h"
+
+namespace cuscus::netsim {
+namespace {
+
+/// Bits on the air between two instants at the rate of the field they belong to.
+double bits_of(const Mode& mode, Duration duration) {
+  return to_seconds(duration) * 1e3 * static_cast<double>(mode.rate_kbps);
+}
+
+double header_bits_of(const Mode& mode, Duration duration) {
+  return mode.format->header_bits * (to_seconds(duration) / to_seconds(mode.format->header));
+}
+
+}  // namespace
+
+DecibelMilliwatt noise_floor(double bandwidth_hz, Decibel noise_figure) {
+  constexpr double kMilliwattPerWatt = 1e3;
+  return DecibelMilliwatt::from_milliwatts(kBoltzmann_JpK * kNoiseTemperature_K * bandwidth_hz *
+                                           kMilliwattPerWatt) +
+         noise_figure;
+}
+
+ReceiverModel::ReceiverModel(const ReceiverParameters& parameters, const ErrorModel& errors)
+    : noise_mw_{parameters.noise.milliwatts()},
+      cca_preamble_mw_{parameters.cca_preamble.milliwatts()},
+      cca_energy_mw_{parameters.cca_energy.milliwatts()},
+      minimum_mw_{std::max(parameters.sensitivity, parameters.detection_minimum).milliwatts()},
+      minimum_sinr_{parameters.detection_minimum_sinr.ratio()},
+      errors_{&errors} {
+  // Below this, (1 - p)^n is 1 to double precision for every frame that fits the standard.
+  constexpr double kNegligibleBitFailure = 1e-21;
+  constexpr double kStep_db = 0.25;
+  constexpr double kHighest_db = 60.0;
+  for (std::size_t m = 0; m < certain_sinr_.size(); ++m) {
+    for (std::size_t c = 0; c < certain_sinr_[m].size(); ++c) {
+      Decibel sinr{0.0};
+      while (sinr.value < kHighest_db &&
+             errors.bit_failure(static_cast<Modulation>(m), static_cast<CodeRate>(c),
+                                sinr.ratio()) > kNegligibleBitFailure) {
+        sinr.value += kStep_db;
+      }
+      certain_sinr_[m][c] = sinr.ratio();
+    }
+  }
+}
+
+double ReceiverModel::log_success_of(Modulation modulation, CodeRate code_rate, double sinr_ratio,
+                                     double bits) const {
+  const double certain =
+      certain_sinr_[static_cast<std::size_t>(modulation)][static_cast<std::size_t>(code_rate)];
+  return sinr_ratio >= certain
+             ? 0.0
+             : log_success(errors_->bit_failure(modulation, code_rate, sinr_ratio), bits);
+}
+
+void Receiver::begin(SimTime now, Arrival& arrival) {
+  settle(now);
+  total_mw_ += arrival.power_mw;
+  ++arrivals_;
+  if (transmitting_) {
+    arrival.cause = LossCause::kHalfDuplex;
+  }
+}
+
+bool Receiver::detect(SimTime now, Arrival& arrival, const PpduTiming& timing) {
+  if (arrival.cause != LossCause::kNone) {
+    return false;
+  }
+  if (transmitting_) {
+    arrival.cause = LossCause::kHalfDuplex;
+  } else if (!model_->detectable(arrival.power_mw, 0.0)) {
+    arrival.cause = LossCause::kBelowDetection;
+  } else if (locked_ != nullptr ||
+             !model_->detectable(arrival.power_mw, std::max(0.0, total_mw_ - arrival.power_mw))) {
+    arrival.cause = LossCause::kCollision;
+  } else {
+    locked_ = &arrival;
+    carrier_ = arrival.power_mw >= model_->cca_preamble_mw();
+    timing_ = {.header_begins = timing.header_begins + arrival.delay,
+               .payload_begins = timing.payload_begins + arrival.delay,
+               .energy_ends = timing.energy_ends + arrival.delay,
+               .mode = timing.mode};
+    chunk_begins_ = now;
+    log_header_ = 0.0;
+    log_payload_ = 0.0;
+    return true;
+  }
+  return false;
+}
+
+Receiver::Header Receiver::header(SimTime now, Arrival& arrival) {
+  if (locked_ != &arrival) {
+    return Header::kNotMine;
+  }
+  settle(now);
+  const PpduFormat& format = *timing_.mode->format;
+  const double in_noise =
+      log_header_ == 0.0
+          ? 0.0
+          : model_->log_success_of(format.header_modulation, format.header_code_rate,
+                                   arrival.power_mw / model_->noise_mw(), format.header_bits);
+  if (!decide(arrival, log_header_, in_noise)) {
+    locked_ = nullptr;
+    return Header::kFailed;
+  }
+  carrier_ = true;  // PHY-RXSTART: busy for the length that the SIGNAL field says
+  return Header::kDecoded;
+}
+
+void Receiver::energy_ends(SimTime now, Arrival& arrival) {
+  settle(now);
+  if (--arrivals_ == 0) {
+    total_mw_ = 0.0;  // no rounding error outlives the frames that caused it
+  } else {
+    total_mw_ = std::max(0.0, total_mw_ - arrival.power_mw);
+  }
+  if (locked_ != &arrival) {
+    return;
+  }
+  const Mode& mode = *timing_.mode;
+  const double in_noise =
+      log_payload_ == 0.0
+          ? 0.0
+          : model_->log_success_of(mode.modulation, mode.code_rate,
+                                   arrival.power_mw / model_->noise_mw(),
+                                   bits_of(mode, timing_.energy_ends - timing_.payload_begins));
+  arrival.decoded = decide(arrival, log_payload_, in_noise);
+}
+
+Receiver::End Receiver::finish(Arrival& arrival) {
+  if (locked_ != &arrival) {
+    return End::kNotMine;
+  }
+  locked_ = nullptr;
+  return arrival.decoded ? End::kDecoded : End::kFailed;
+}
+
+void Receiver::start_transmission() {
+  if (locked_ != nullptr) {
+    locked_->cause = LossCause::kHalfDuplex;
+    locked_->decoded = false;
+    locked_ = nullptr;
+  }
+  transmitting_ = true;
+}
+
+void Receiver::settle(SimTime now) {
+  if (locked_ == nullptr || now <= chunk_begins_) {
+    return;
+  }
+  const double interference_mw = std::max(0.0, total_mw_ - locked_->power_mw);
+  charge(chunk_begins_, now, locked_->power_mw / (model_->noise_mw() + interference_mw));
+  chunk_begins_ = now;
+}
+
+void Receiver::charge(SimTime from, SimTime to, double sinr_ratio) {
+  const Mode& mode = *timing_.mode;
+  const Duration in_header =
+      std::min(to, timing_.payload_begins) - std::max(from, timing_.header_begins);
+  if (in_header > Duration::zero()) {
+    log_header_ +=
+        model_->log_success_of(mode.format->header_modulation, mode.format->header_code_rate,
+                               sinr_ratio, header_bits_of(mode, in_header));
+  }
+  const Duration in_payload =
+      std::min(to, timing_.energy_ends) - std::max(from, timing_.payload_begins);
+  if (in_payload > Duration::zero()) {
+    log_payload_ += model_->log_success_of(mode.modulation, mode.code_rate, sinr_ratio,
+                                           bits_of(mode, in_payload));
+  }
+}
+
+bool Receiver::decide(Arrival& arrival, double log_success, double log_success_in_noise) {
+  if (log_success == 0.0) {
+    return true;
+  }
+  const double u = draws_.uniform(draw_++);
+  if (u < std::exp(log_success)) {
+    return true;
+  }
+  // The same draw decides who is to blame: the frame that noise alone would have spoilt too is
+  // charged to noise.
+  arrival.cause = u < std::exp(log_success_in_noise) ? LossCause::kCollision : LossCause::kNoise;
+  return false;
+}
+
+}  // namespace cuscus::netsim

@@ -1,0 +1,137 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "common/random/counter_stream.h"
+#include "common/units/decibel.h"
+#include "netsim/phy/error_model.h"
+#include "netsim/phy/standard.h"
+
+namespace cuscus::netsim {
+
+/// Why a frame was not received.
+enum class LossCause : std::uint8_t {
+  kNone,
+  kBelowDetection,  ///< Too weak to be detected.
+  kNoise,           ///< Detected; decoding would have failed without interference too.
+  kCollision,       ///< Not detected, or not decoded, because of interference.
+  kHalfDuplex,      ///< The node was transmitting.
+};
+
+/// What all receivers of a run have in common.
+struct ReceiverParameters {
+  DecibelMilliwatt noise{};              ///< Thermal noise and noise figure in the bandwidth.
+  DecibelMilliwatt cca_preamble{};       ///< A detected preamble at or above makes the medium busy.
+  DecibelMilliwatt cca_energy{};         ///< Any energy at or above makes the medium busy.
+  DecibelMilliwatt sensitivity{};        ///< Nothing below is ever detected.
+  DecibelMilliwatt detection_minimum{};  ///< Preamble detection; -inf: none.
+  Decibel detection_minimum_sinr{};      ///< Preamble detection; -inf: none.
+};
+
+/// k T0 B and a noise figure. (At 20 MHz and 7 dB: -93.97 dBm.)
+[[nodiscard]] DecibelMilliwatt noise_floor(double bandwidth_hz, Decibel noise_figure);
+
+/// Parameters in linear units, with what follows from them; shared by all receivers.
+class ReceiverModel {
+ public:
+  /// `errors` must outlive this object.
+  ReceiverModel(const ReceiverParameters& parameters, const ErrorModel& errors);
+
+  [[nodiscard]] double noise_mw() const { return noise_mw_; }
+  [[nodiscard]] double cca_preamble_mw() const { return cca_preamble_mw_; }
+  [[nodiscard]] double cca_energy_mw() const { return cca_energy_mw_; }
+  [[nodiscard]] bool detectable(double signal_mw, double interference_mw) const {
+    return signal_mw >= minimum_mw_ && signal_mw >= minimum_sinr_ * (noise_mw_ + interference_mw);
+  }
+  /// ln of the probability that `bits` survive at this SINR.
+  [[nodiscard]] double log_success_of(Modulation modulation, CodeRate code_rate, double sinr_ratio,
+                                      double bits) const;
+
+ private:
+  double noise_mw_;
+  double cca_preamble_mw_;
+  double cca_energy_mw_;
+  double minimum_mw_;
+  double minimum_sinr_;
+  const ErrorModel* errors_;
+  /// Per modulation and code rate: from this SINR on no bit fails, to double precision.
+  std::array<std::array<double, 3>, 4> certain_sinr_{};
+};
+
+/// One transmission as one receiver gets it.
+struct Arrival {
+  std::uint32_t receiver{};
+  Duration delay{};  ///< Propagation.
+  double power_mw{};
+  LossCause cause{LossCause::kNone};
+  bool decoded{false};
+};
+
+/// When the parts of a transmission leave its antenna.
+struct PpduTiming {
+  SimTime header_begins;
+  SimTime payload_begins;
+  SimTime energy_ends;  ///< Without the signal extension.
+  const Mode* mode{};
+};
+
+/// Reception at one node.
+///
+/// Interference is accumulated in chunks: whenever the total power on the antenna changes, the
+/// stretch since the last change is charged with its own SINR. A frame is locked on when its
+/// preamble has been heard for the CCA time, nothing else is being received and it is strong
+/// enough; there is no capture: a locked receiver stays with its frame. SIGNAL field and payload
+/// are decided apart.
+///
+/// The caller brings events in the order of their time: begin and, after the CCA time, detect;
+/// header at the end of the SIGNAL field; energy_ends; finish after the signal extension. Arrivals
+/// must stay where they are from begin to finish.
+class Receiver {
+ public:
+  Receiver(const ReceiverModel& model, random::CounterStream draws)
+      : model_{&model}, draws_{draws} {}
+
+  void begin(SimTime now, Arrival& arrival);
+  /// Whether the receiver locked on.
+  bool detect(SimTime now, Arrival& arrival, const PpduTiming& timing);
+
+  enum class Header : std::uint8_t { kNotMine, kDecoded, kFailed };
+  Header header(SimTime now, Arrival& arrival);
+  void energy_ends(SimTime now, Arrival& arrival);
+
+  enum class End : std::uint8_t { kNotMine, kDecoded, kFailed };
+  /// Frees the receiver if it was locked on this arrival.
+  End finish(Arrival& arrival);
+
+  /// The node's own transmission; whatever was being received is lost.
+  void start_transmission();
+  void end_transmission() { transmitting_ = false; }
+
+  [[nodiscard]] bool transmitting() const { return transmitting_; }
+  /// Physical carrier sense.
+  [[nodiscard]] bool medium_busy() const {
+    return total_mw_ >= model_->cca_energy_mw() || (locked_ != nullptr && carrier_);
+  }
+
+ private:
+  void settle(SimTime now);
+  void charge(SimTime from, SimTime to, double sinr_ratio);
+  bool decide(Arrival& arrival, double log_success, double log_success_in_noise);
+
+  const ReceiverModel* model_;
+  random::CounterStream draws_;
+  std::uint64_t draw_{0};
+  double total_mw_{0.0};
+  std::uint32_t arrivals_{0};
+  bool transmitting_{false};
+  // The frame being received.
+  Arrival* locked_{nullptr};
+  bool carrier_{false};
+  PpduTiming timing_{};  ///< At this antenna.
+  SimTime chunk_begins_{};
+  double log_header_{0.0};
+  double log_payload_{0.0};
+};
+
+}  // namespace cuscus::netsim

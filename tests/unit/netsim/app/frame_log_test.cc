@@ -1,0 +1,111 @@
+#include "netsim/app/frame_log.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "common/posix/check.h"
+#include "netsim/app/replay.h"
+
+namespace cuscus::netsim {
+namespace {
+
+/// A file that is gone with its scope.
+class ScratchFile {
+ public:
+  ScratchFile() : fd{posix::check("mkostemp", ::mkostemp(path.data(), O_CLOEXEC))} {}
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+  ~ScratchFile() { ::unlink(path.c_str()); }
+
+  std::string path{"/tmp/cuscus-frame-log-XXXXXX"};
+  posix::UniqueFd fd;
+};
+
+FrameRecord record(std::int64_t sent_ns, std::uint32_t node, std::int32_t destination) {
+  return {.sent_ns = sent_ns,
+          .node = node,
+          .destination = destination,
+          .frame_bytes = 142,
+          .attempts = 1,
+          .outcome = destination == kGroup ? SendOutcome::kSent : SendOutcome::kAcknowledged,
+          .deliveries = destination == kGroup ? 2U : 1U,
+          .first_delivery_ns = sent_ns + 252'000};
+}
+
+TEST_CASE("a frame log is read back as it was written, in the order of the sends") {
+  ScratchFile file;
+  AirParameters parameters;
+  parameters.nodes.assign(3, AirNode{});
+  parameters.group_rate_kbps = 12'000;
+  parameters.detection_minimum = {-std::numeric_limits<double>::infinity()};
+
+  {
+    FrameLog log{std::move(file.fd), parameters};
+    log.add(record(5'000'000, 2, 0));
+    log.add(record(1'000'000, 0, kGroup));
+    log.add(record(2'000'000, 1, kNobody));
+    CHECK(log.left_out() == 0);
+  }
+  const ReplayLog log = read_replay_log(file.path, "");
+
+  CHECK(log.air.nodes.size() == 3);
+  CHECK(log.air.group_rate_kbps == 12'000);
+  CHECK(log.air.detection_minimum == parameters.detection_minimum);
+  REQUIRE(log.frames.size() == 3);
+  CHECK(log.frames[0].sent_ns == 1'000'000);
+  CHECK(log.frames[0].destination == kGroup);
+  CHECK(log.frames[0].deliveries == 2);
+  CHECK(log.frames[1].destination == kNobody);
+  CHECK(log.frames[2].destination == 0);
+  CHECK(log.frames[2].outcome == SendOutcome::kAcknowledged);
+  CHECK(log.frames[2].first_delivery_ns == 5'252'000);
+}
+
+TEST_CASE("a replay of sends that do not meet delivers what an idle air delivers") {
+  ReplayLog log;
+  log.air.nodes.assign(3, AirNode{});
+  for (int i = 0; i < 100; ++i) {
+    log.frames.push_back(record(10'000'000 * i, static_cast<std::uint32_t>(i % 3), kGroup));
+  }
+
+  const ReplayResult result = replay(log, AirParameters{}, DecibelMilliwatt{-50.0});
+
+  CHECK(result.group.live.deliveries == 200);
+  CHECK(result.group.simulated.deliveries == 200);
+  // 142 B of Ethernet are 164 B of PSDU: DIFS and 250 us.
+  CHECK(result.group.simulated.delay_sum_us == Approx(100 * 300.0));
+}
+
+TEST_CASE("a replay with positions loses what was out of reach") {
+  ReplayLog log;
+  log.air.nodes.assign(2, AirNode{});
+  log.frames = {record(1'000'000, 0, kGroup), record(3'000'000'000, 0, kGroup)};
+  log.positions = {{.time_ns = 0, .node = 0, .p_WN = {0, 0, 10}},
+                   {.time_ns = 0, .node = 1, .p_WN = {50, 0, 10}},
+                   {.time_ns = 2'000'000'000, .node = 1, .p_WN = {5'000, 0, 10}}};
+
+  const ReplayResult result = replay(log, AirParameters{}, DecibelMilliwatt{-50.0});
+
+  CHECK(result.group.simulated.deliveries == 1);
+  CHECK(result.tallies[1].lost_below_detection == 1);
+}
+
+TEST_CASE("a line that is no record is refused with file and line") {
+  ScratchFile file;
+  std::ofstream{file.path} << "# nodes=2\n1,0,group,100,1,sent,1,2\n1,7,group,100,1,sent,1,2\n";
+
+  CHECK_THROWS_WITH(read_replay_log(file.path, ""),
+                    Catch::Contains(file.path + ":3: not a frame record of a 2-node log"));
+  CHECK_FALSE(parse_frame_record("1,0,group,100,1,unheard-of,1,2"));
+  CHECK_FALSE(parse_frame_record("1,0,group,100,1,sent,1"));
+  CHECK_FALSE(parse_frame_record("1,0,group,100,1,sent,1,2,3"));
+}
+
+}  // namespace
+}  // namespace cuscus::netsim

@@ -1,0 +1,89 @@
+#include "netsim/app/stamp_matcher.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <vector>
+
+namespace cuscus::netsim {
+namespace {
+
+std::vector<std::uint8_t> frame(std::uint8_t mark, std::size_t bytes = 60) {
+  return std::vector<std::uint8_t>(bytes, mark);
+}
+
+shm::SendStamp stamp_of(const std::vector<std::uint8_t>& bytes, std::uint64_t monotonic_ns = 0) {
+  shm::SendStamp stamp{.monotonic_ns = monotonic_ns,
+                       .node = 0,
+                       .frame_bytes = static_cast<std::uint32_t>(bytes.size()),
+                       .head = {}};
+  std::copy_n(bytes.begin(), std::min(bytes.size(), stamp.head.size()), stamp.head.begin());
+  return stamp;
+}
+
+std::vector<std::uint32_t> tokens(std::span<const std::uint32_t> span) {
+  return {span.begin(), span.end()};
+}
+
+TEST_CASE("frames meet their stamps in order") {
+  StampMatcher matcher;
+  matcher.expect(1, stamp_of(frame('a')));
+  matcher.expect(2, stamp_of(frame('b')));
+
+  CHECK(matcher.match(frame('a')).token == 1U);
+  CHECK(matcher.match(frame('b')).token == 2U);
+  CHECK(matcher.expected() == 0);
+}
+
+TEST_CASE("a frame further on in the line tells that those before it were lost") {
+  StampMatcher matcher;
+  matcher.expect(1, stamp_of(frame('a')));
+  matcher.expect(2, stamp_of(frame('b')));
+  matcher.expect(3, stamp_of(frame('c')));
+
+  const auto match = matcher.match(frame('c'));
+
+  CHECK(match.token == 3U);
+  CHECK(tokens(match.lost) == std::vector<std::uint32_t>{1, 2});
+}
+
+TEST_CASE("a frame without stamp leaves the stamps alone") {
+  StampMatcher matcher;
+  matcher.expect(1, stamp_of(frame('a')));
+
+  const auto match = matcher.match(frame('x'));
+
+  CHECK_FALSE(match.token);
+  CHECK(match.lost.empty());
+  CHECK(matcher.expected() == 1);
+}
+
+TEST_CASE("equal heads of different length are different frames, equal frames go in order") {
+  StampMatcher matcher;
+  matcher.expect(1, stamp_of(frame('a', 100)));
+  matcher.expect(2, stamp_of(frame('a', 101)));
+  matcher.expect(3, stamp_of(frame('a', 101)));
+
+  CHECK(matcher.match(frame('a', 100)).token == 1U);
+  CHECK(matcher.match(frame('a', 101)).token == 2U);
+  CHECK(matcher.match(frame('a', 101)).token == 3U);
+}
+
+TEST_CASE("a frame shorter than a stamp's head is known by all of its bytes") {
+  StampMatcher matcher;
+  matcher.expect(1, stamp_of(frame('a', 20)));
+
+  CHECK_FALSE(matcher.match(frame('b', 20)).token);
+  CHECK(matcher.match(frame('a', 20)).token == 1U);
+}
+
+TEST_CASE("stamps whose frames never came expire by age") {
+  StampMatcher matcher;
+  matcher.expect(1, stamp_of(frame('a'), 100));
+  matcher.expect(2, stamp_of(frame('b'), 200));
+
+  CHECK(tokens(matcher.expire(200)) == std::vector<std::uint32_t>{1});
+  CHECK(matcher.match(frame('b')).token == 2U);
+}
+
+}  // namespace
+}  // namespace cuscus::netsim

@@ -1,0 +1,336 @@
+#include "netsim/mac/dcf.h"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <optional>
+
+namespace cuscus::netsim {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+constexpr std::uint32_t kNode = 4;
+constexpr std::array<std::uint32_t, 3> kBasic{6'000, 12'000, 24'000};
+
+MacParameters parameters() {
+  auto p = MacParameters::from(ieee80211g(), microseconds{20}, 6'000, 6'000, kBasic);
+  p.retry_limit = 7;
+  p.queue_frames = 3;
+  p.queue_lifetime = milliseconds{500};
+  return p;
+}
+
+SimTime at(int us) { return SimTime{} + microseconds{us}; }
+
+/// Stands for PHY and event queue: remembers what the station asks, and plays it on request.
+class Station final : public MacHost {
+ public:
+  Station() : mac{parameters()}, dcf{kNode, mac, *this, random::CounterStream{1, kNode}} {}
+
+  void transmit(std::uint32_t /*node*/, const MacFrame& frame, const Mode& mode,
+                std::uint32_t psdu_bytes) override {
+    sent = frame;
+    ends = now + airtime(mode, psdu_bytes);
+    ++transmissions;
+  }
+  void set_timer(std::uint32_t /*node*/, MacTimer timer, SimTime time) override {
+    timers.at(static_cast<std::size_t>(timer)) = time;
+  }
+  void cancel_timer(std::uint32_t /*node*/, MacTimer timer) override {
+    timers.at(static_cast<std::size_t>(timer)).reset();
+  }
+  void finished(std::uint32_t /*node*/, const Msdu& msdu, SendOutcome result,
+                std::uint32_t count) override {
+    outcome = result;
+    attempts = count;
+    finished_frame = msdu.frame;
+  }
+
+  [[nodiscard]] std::optional<SimTime> timer(MacTimer which) const {
+    return timers.at(static_cast<std::size_t>(which));
+  }
+  void fire(MacTimer which) {
+    now = timer(which).value();
+    timers.at(static_cast<std::size_t>(which)).reset();
+    dcf.timer(now, which);
+  }
+  void end_transmission() {
+    now = ends;
+    dcf.transmission_ended(now);
+  }
+  void enqueue(SimTime time, std::int32_t destination, std::uint32_t frame = 1) {
+    now = time;
+    dcf.enqueue(now,
+                {.frame = frame, .destination = destination, .psdu_bytes = 100, .queued_at = now});
+  }
+  void busy(SimTime from, SimTime to) {
+    dcf.medium_busy(from);
+    dcf.medium_idle(to);
+  }
+  /// The slots that the access timer has left after `idle_from`, when DIFS has passed.
+  [[nodiscard]] int slots_after(SimTime idle_from) const {
+    const auto slots = (timer(MacTimer::kAccess).value() - idle_from - mac.difs) / mac.slot;
+    return static_cast<int>(slots);
+  }
+  void receive_ack() {
+    now = ends + mac.sifs + airtime(*mac.ack_mode, kAckBytes);
+    dcf.medium_busy(now - microseconds{46});
+    dcf.reception_started(now - microseconds{30});
+    dcf.received(now, {.kind = MacFrame::Kind::kAck, .sender = 1, .receiver = std::int32_t{kNode}},
+                 *mac.ack_mode);
+    dcf.medium_idle(now);
+  }
+
+  MacParameters mac;
+  Dcf dcf;
+  SimTime now{};
+  SimTime ends{};
+  MacFrame sent{};
+  int transmissions{0};
+  std::array<std::optional<SimTime>, kMacTimers> timers{};
+  std::optional<SendOutcome> outcome;
+  std::uint32_t attempts{0};
+  std::uint32_t finished_frame{0};
+};
+
+TEST_CASE("timing follows from slot, SIFS and the lowest basic rate") {
+  const MacParameters p = parameters();
+
+  CHECK(p.difs == microseconds{50});
+  CHECK(p.eifs == microseconds{110});
+  CHECK(p.ack_timeout == microseconds{50});
+}
+
+TEST_CASE("a frame that finds an idle medium goes out after DIFS, without backoff") {
+  Station station;
+
+  station.enqueue(at(1000), kGroup);
+
+  CHECK(station.timer(MacTimer::kAccess) == at(1050));
+}
+
+TEST_CASE("a frame that finds a busy medium draws a backoff, counted from DIFS after it") {
+  Station station;
+  station.dcf.medium_busy(at(900));
+
+  station.enqueue(at(1000), kGroup);
+  CHECK_FALSE(station.timer(MacTimer::kAccess));
+  station.dcf.medium_idle(at(1200));
+
+  const int slots = station.slots_after(at(1200));
+  CHECK(slots >= 0);
+  CHECK(slots <= 15);
+  CHECK(station.timer(MacTimer::kAccess) == at(1250 + 20 * slots));
+}
+
+TEST_CASE("a medium that becomes busy within DIFS makes an immediate access draw a backoff") {
+  Station station;
+  station.enqueue(at(1000), kGroup);
+
+  // Over many stations the draw must not always be zero; with this seed it is not.
+  station.busy(at(1030), at(2000));
+
+  CHECK(station.timer(MacTimer::kAccess) >= at(2050));
+}
+
+TEST_CASE("a backoff is frozen while the medium is busy and goes on after DIFS") {
+  Station station;
+  station.dcf.medium_busy(at(0));
+  station.enqueue(at(10), kGroup);
+  station.dcf.medium_idle(at(100));
+  const int slots = station.slots_after(at(100));
+  REQUIRE(slots >= 3);  // or the seed has to be another
+
+  // Two slots and a half pass: two are done with.
+  station.busy(at(100 + 50 + 50), at(1000));
+  CHECK(station.slots_after(at(1000)) == slots - 2);
+
+  // Busy again before DIFS is over: nothing is counted.
+  station.busy(at(1049), at(2000));
+  CHECK(station.slots_after(at(2000)) == slots - 2);
+}
+
+TEST_CASE("after a reception that failed EIFS is waited, until one succeeds") {
+  Station station;
+  station.dcf.medium_busy(at(0));
+  station.enqueue(at(10), kGroup);
+  station.dcf.reception_started(at(20));
+  station.dcf.reception_failed(at(500));
+  station.dcf.medium_idle(at(500));
+  const int slots = station.slots_after(at(500 + 60));
+  CHECK(station.timer(MacTimer::kAccess) == at(500 + 110 + 20 * slots));
+
+  station.dcf.medium_busy(at(560));
+  station.dcf.reception_started(at(576));
+  station.dcf.received(at(700), {.sender = 1, .receiver = kGroup}, *station.mac.group_mode);
+  station.dcf.medium_idle(at(700));
+
+  CHECK(station.timer(MacTimer::kAccess) == at(700 + 50 + 20 * slots));
+}
+
+TEST_CASE("the duration of a frame for others sets the NAV") {
+  Station station;
+  station.dcf.medium_busy(at(0));
+  station.enqueue(at(10), kGroup);
+  station.dcf.reception_started(at(20));
+  station.dcf.received(at(500), {.sender = 1, .receiver = 2, .duration = microseconds{60}},
+                       *station.mac.data_mode);
+  station.dcf.medium_idle(at(500));
+
+  CHECK(station.timer(MacTimer::kAccess) >= at(500 + 60 + 50));
+  CHECK((station.timer(MacTimer::kAccess).value() - at(610)) % microseconds{20} == microseconds{0});
+}
+
+TEST_CASE("a group frame is sent once and followed by a post-backoff") {
+  Station station;
+  station.enqueue(at(1000), kGroup);
+  station.fire(MacTimer::kAccess);
+  CHECK(station.sent.duration == microseconds{0});
+  station.end_transmission();
+
+  CHECK(station.outcome == SendOutcome::kSent);
+  CHECK(station.attempts == 1);
+
+  // The next one within the post-backoff does not go out after DIFS alone (but for a draw of 0).
+  station.enqueue(station.now + microseconds{1}, kGroup, 2);
+  const int slots = station.slots_after(station.ends);
+  CHECK(slots >= 0);
+  CHECK(slots <= 15);
+  CHECK(station.timer(MacTimer::kAccess) ==
+        std::max(station.ends + microseconds{50 + 20 * slots}, station.now));
+}
+
+TEST_CASE("a post-backoff that ran out leaves immediate access") {
+  Station station;
+  station.enqueue(at(1000), kGroup);
+  station.fire(MacTimer::kAccess);
+  station.end_transmission();
+
+  station.enqueue(at(5000), kGroup, 2);
+
+  CHECK(station.timer(MacTimer::kAccess) == at(5050));
+}
+
+TEST_CASE("an acknowledged frame is done at its first attempt") {
+  Station station;
+  station.enqueue(at(1000), 1);
+  station.fire(MacTimer::kAccess);
+  CHECK(station.sent.duration == microseconds{60});  // SIFS and an ACK of 50 us
+  station.end_transmission();
+  CHECK(station.timer(MacTimer::kAckTimeout) == station.ends + microseconds{50});
+
+  station.receive_ack();
+
+  CHECK(station.outcome == SendOutcome::kAcknowledged);
+  CHECK(station.attempts == 1);
+  CHECK_FALSE(station.timer(MacTimer::kAckTimeout));
+}
+
+TEST_CASE("a missing ACK doubles the window up to its maximum; the seventh drops the frame") {
+  Station station;
+  station.enqueue(at(1000), 1);
+  const std::array<std::uint32_t, 6> windows{31, 63, 127, 255, 511, 1023};
+  for (int attempt = 1; attempt <= 7; ++attempt) {
+    CHECK(station.transmissions == attempt - 1);
+    station.fire(MacTimer::kAccess);
+    station.end_transmission();
+    CHECK_FALSE(station.timer(MacTimer::kAccess));  // nothing else while an ACK may come
+    station.fire(MacTimer::kAckTimeout);
+    if (attempt < 7) {
+      CHECK_FALSE(station.outcome);
+      CHECK(station.dcf.contention_window() == windows.at(static_cast<std::size_t>(attempt - 1)));
+    }
+  }
+
+  CHECK(station.outcome == SendOutcome::kRetryLimit);
+  CHECK(station.attempts == 7);
+  CHECK(station.dcf.contention_window() == 15);
+  CHECK(station.dcf.queued() == 0);
+}
+
+TEST_CASE("a retry keeps its sequence number and a new frame gets another") {
+  Station station;
+  station.enqueue(at(1000), 1);
+  station.enqueue(at(1000), 1, 2);
+  station.fire(MacTimer::kAccess);
+  const std::uint32_t first = station.sent.sequence;
+  station.end_transmission();
+  station.fire(MacTimer::kAckTimeout);
+  station.fire(MacTimer::kAccess);
+  CHECK(station.sent.sequence == first);
+  station.end_transmission();
+  station.receive_ack();
+  station.fire(MacTimer::kAccess);
+
+  CHECK(station.sent.sequence != first);
+}
+
+TEST_CASE("an ACK whose reception has begun by the timeout is waited for") {
+  Station station;
+  station.enqueue(at(1000), 1);
+  station.fire(MacTimer::kAccess);
+  station.end_transmission();
+  const SimTime ended = station.ends;
+  station.dcf.medium_busy(ended + microseconds{14});
+  station.dcf.reception_started(ended + microseconds{30});
+
+  station.fire(MacTimer::kAckTimeout);
+  CHECK_FALSE(station.outcome);
+  CHECK(station.dcf.contention_window() == 15);
+  station.dcf.received(ended + microseconds{60},
+                       {.kind = MacFrame::Kind::kAck, .sender = 1, .receiver = std::int32_t{kNode}},
+                       *station.mac.ack_mode);
+
+  CHECK(station.outcome == SendOutcome::kAcknowledged);
+}
+
+TEST_CASE("data is acknowledged after SIFS, and its repetition is acknowledged but not delivered") {
+  Station station;
+  const MacFrame data{.sender = 1, .receiver = std::int32_t{kNode}, .sequence = 9};
+
+  CHECK(station.dcf.received(at(500), data, *station.mac.data_mode));
+  CHECK(station.timer(MacTimer::kResponse) == at(510));
+  station.fire(MacTimer::kResponse);
+  CHECK(station.sent.kind == MacFrame::Kind::kAck);
+  CHECK(station.sent.receiver == 1);
+  station.end_transmission();
+
+  CHECK_FALSE(station.dcf.received(at(2000), data, *station.mac.data_mode));
+  CHECK(station.timer(MacTimer::kResponse) == at(2010));
+}
+
+TEST_CASE("a reply goes out DIFS after the ACK of what it answers") {
+  Station station;
+  const MacFrame data{.sender = 1, .receiver = std::int32_t{kNode}, .sequence = 9};
+  station.dcf.received(at(500), data, *station.mac.data_mode);
+  station.enqueue(at(500), 1);
+  CHECK_FALSE(station.timer(MacTimer::kAccess));
+
+  station.fire(MacTimer::kResponse);
+  station.end_transmission();
+
+  CHECK(station.timer(MacTimer::kAccess) == at(500 + 10 + 50 + 50));
+}
+
+TEST_CASE("a full queue and an expired frame are dropped with their causes") {
+  Station station;
+  station.dcf.medium_busy(at(0));
+  station.enqueue(at(10), kGroup, 1);
+  station.enqueue(at(11), kGroup, 2);
+  station.enqueue(at(600'000), kGroup, 3);
+  CHECK_FALSE(station.outcome);
+  station.enqueue(at(600'001), kGroup, 4);
+  CHECK(station.outcome == SendOutcome::kQueueFull);
+  CHECK(station.finished_frame == 4);
+
+  station.dcf.medium_idle(at(600'100));
+  station.fire(MacTimer::kAccess);
+
+  CHECK(station.outcome == SendOutcome::kLifetime);
+  CHECK(station.finished_frame == 2);
+  CHECK(station.sent.frame == 3);
+}
+
+}  // namespace
+}  // namespace cuscus::netsim

@@ -1,0 +1,170 @@
+#include "netsim/phy/receiver.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+namespace cuscus::netsim {
+namespace {
+
+using std::chrono::microseconds;
+
+SimTime at(int us) { return SimTime{} + microseconds{us}; }
+
+ReceiverParameters standard_parameters() {
+  return {.noise = noise_floor(20e6, Decibel{7.0}),
+          .cca_preamble = {-82.0},
+          .cca_energy = {-62.0},
+          .sensitivity = {-101.0},
+          .detection_minimum = {-82.0},
+          .detection_minimum_sinr = {4.0}};
+}
+
+/// A receiver and frames of 6 Mb/s that arrive at it; 100 B: energy for 160 us.
+struct Bench {
+  explicit Bench(ReceiverParameters parameters = standard_parameters())
+      : model{parameters, errors}, receiver{model, random::CounterStream{1, 2}} {}
+
+  static PpduTiming timing(int begins_us) {
+    return {.header_begins = at(begins_us + 16),
+            .payload_begins = at(begins_us + 20),
+            .energy_ends = at(begins_us + 160),
+            .mode = &ieee80211g().mode(6'000)};
+  }
+  static Arrival arrival(double power_dbm) {
+    return {.receiver = 0, .power_mw = DecibelMilliwatt{power_dbm}.milliwatts()};
+  }
+
+  NistErrorModel errors;
+  ReceiverModel model;
+  Receiver receiver;
+};
+
+/// All of one undisturbed reception that begins at 0.
+Receiver::End receive(Bench& bench, Arrival& frame) {
+  bench.receiver.begin(at(0), frame);
+  bench.receiver.detect(at(4), frame, Bench::timing(0));
+  bench.receiver.header(at(20), frame);
+  bench.receiver.energy_ends(at(160), frame);
+  return bench.receiver.finish(frame);
+}
+
+TEST_CASE("the noise floor of 20 MHz with a noise figure of 7 dB is -93.97 dBm") {
+  CHECK(noise_floor(20e6, Decibel{7.0}).value == Approx(-93.97).margin(0.01));
+}
+
+TEST_CASE("a strong frame alone is decoded and holds the medium until its end") {
+  Bench bench;
+  Arrival frame = Bench::arrival(-70.0);
+
+  bench.receiver.begin(at(0), frame);
+  CHECK_FALSE(bench.receiver.medium_busy());  // below the energy threshold, not yet detected
+  CHECK(bench.receiver.detect(at(4), frame, Bench::timing(0)));
+  CHECK(bench.receiver.medium_busy());
+  CHECK(bench.receiver.header(at(20), frame) == Receiver::Header::kDecoded);
+  bench.receiver.energy_ends(at(160), frame);
+  CHECK(bench.receiver.medium_busy());  // for the signal extension
+  CHECK(bench.receiver.finish(frame) == Receiver::End::kDecoded);
+  CHECK_FALSE(bench.receiver.medium_busy());
+  CHECK(frame.decoded);
+}
+
+TEST_CASE("a frame below the detection threshold is lost as too weak") {
+  Bench bench;
+  Arrival frame = Bench::arrival(-82.1);
+
+  CHECK(receive(bench, frame) == Receiver::End::kNotMine);
+  CHECK(frame.cause == LossCause::kBelowDetection);
+}
+
+TEST_CASE("without preamble detection a hopeless frame is lost to noise") {
+  auto parameters = standard_parameters();
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  parameters.detection_minimum = {kNone};
+  parameters.detection_minimum_sinr = {kNone};
+  Bench bench{parameters};
+  Arrival frame = Bench::arrival(-97.0);
+
+  CHECK(receive(bench, frame) != Receiver::End::kDecoded);
+  CHECK(frame.cause == LossCause::kNoise);
+}
+
+TEST_CASE("two equal frames at once are both lost to collision") {
+  Bench bench;
+  Arrival first = Bench::arrival(-50.0);
+  Arrival second = Bench::arrival(-50.0);
+
+  bench.receiver.begin(at(0), first);
+  bench.receiver.begin(at(0), second);
+  CHECK_FALSE(bench.receiver.detect(at(4), first, Bench::timing(0)));
+  CHECK_FALSE(bench.receiver.detect(at(4), second, Bench::timing(0)));
+
+  CHECK(first.cause == LossCause::kCollision);
+  CHECK(second.cause == LossCause::kCollision);
+  CHECK(bench.receiver.medium_busy());  // energy
+}
+
+TEST_CASE("interference during part of a frame is charged to that part and named as the cause") {
+  Bench bench;
+  Arrival frame = Bench::arrival(-70.0);
+  Arrival disturber = Bench::arrival(-68.0);
+
+  bench.receiver.begin(at(0), frame);
+  bench.receiver.detect(at(4), frame, Bench::timing(0));
+  CHECK(bench.receiver.header(at(20), frame) == Receiver::Header::kDecoded);
+  bench.receiver.begin(at(60), disturber);
+  bench.receiver.detect(at(64), disturber, Bench::timing(60));
+  bench.receiver.energy_ends(at(160), frame);
+
+  CHECK(bench.receiver.finish(frame) == Receiver::End::kFailed);
+  CHECK(frame.cause == LossCause::kCollision);
+  CHECK(disturber.cause == LossCause::kCollision);  // the receiver was busy with the first
+}
+
+TEST_CASE("interference that ends before the SIGNAL field does no harm") {
+  Bench bench;
+  Arrival disturber = Bench::arrival(-75.0);
+  Arrival frame = Bench::arrival(-70.0);
+
+  // The disturber is in its last 10 us when the frame begins.
+  bench.receiver.begin(at(-150), disturber);
+  bench.receiver.begin(at(0), frame);
+  bench.receiver.detect(at(4), frame, Bench::timing(0));
+  bench.receiver.energy_ends(at(10), disturber);
+  CHECK(bench.receiver.header(at(20), frame) == Receiver::Header::kDecoded);
+  bench.receiver.energy_ends(at(160), frame);
+
+  CHECK(bench.receiver.finish(frame) == Receiver::End::kDecoded);
+}
+
+TEST_CASE("a node that transmits receives nothing") {
+  Bench bench;
+  Arrival during = Bench::arrival(-50.0);
+  Arrival interrupted = Bench::arrival(-50.0);
+
+  bench.receiver.begin(at(0), interrupted);
+  bench.receiver.detect(at(4), interrupted, Bench::timing(0));
+  bench.receiver.start_transmission();
+  bench.receiver.begin(at(30), during);
+  bench.receiver.end_transmission();
+  bench.receiver.detect(at(34), during, Bench::timing(30));
+
+  CHECK(interrupted.cause == LossCause::kHalfDuplex);
+  CHECK(bench.receiver.finish(interrupted) == Receiver::End::kNotMine);
+  CHECK(during.cause == LossCause::kHalfDuplex);
+}
+
+TEST_CASE("energy from several weak frames adds up to a busy medium") {
+  Bench bench;
+  Arrival first = Bench::arrival(-64.0);
+  Arrival second = Bench::arrival(-64.0);
+
+  bench.receiver.begin(at(0), first);
+  CHECK_FALSE(bench.receiver.medium_busy());
+  bench.receiver.begin(at(1), second);
+  CHECK(bench.receiver.medium_busy());  // -61 dBm
+  bench.receiver.energy_ends(at(160), first);
+  CHECK_FALSE(bench.receiver.medium_busy());
+}
+
+}  // namespace
+}  // namespace cuscus::netsim
