@@ -178,7 +178,7 @@ class PageServer::Connection {
     }
     web_socket_.text(true);
     web_socket_.auto_fragment(false);  // one picture, one system call
-    asio::co_spawn(web_socket_.get_executor(), write_pictures(), [this](std::exception_ptr) {
+    asio::co_spawn(web_socket_.get_executor(), write_pictures(), [this](const std::exception_ptr&) {
       writing_ = false;
       writer_done_.cancel();
     });
