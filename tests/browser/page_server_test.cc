@@ -146,6 +146,7 @@ TEST_CASE("a request that never ends is cut off") {
 TEST_CASE("no more clients than allowed get pictures") {
   RunningServer server{{.clients = 2}};
   std::vector<tcp::socket> sockets;
+  sockets.reserve(3);
   for (int i = 0; i < 3; ++i) {
     sockets.push_back(server.connect());
   }
