@@ -21,6 +21,8 @@ class GroundStation {
   GroundStation(ipc::ChildSession& session, const proto::GroundStationConfiguration& configuration);
   GroundStation(const GroundStation&) = delete;
   GroundStation& operator=(const GroundStation&) = delete;
+  GroundStation(GroundStation&&) = delete;
+  GroundStation& operator=(GroundStation&&) = delete;
   ~GroundStation() = default;
 
   /// Works until the orchestrator says Stop. SimTime 0 is `start_monotonic_ns`.

@@ -86,6 +86,8 @@ class PageServer::Connection {
   }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
+  Connection(Connection&&) = delete;
+  Connection& operator=(Connection&&) = delete;
   ~Connection() {
     --census_.connections;
     census_.clients.remove(&wake_);
@@ -176,7 +178,7 @@ class PageServer::Connection {
     }
     web_socket_.text(true);
     web_socket_.auto_fragment(false);  // one picture, one system call
-    asio::co_spawn(web_socket_.get_executor(), write_pictures(), [this](std::exception_ptr) {
+    asio::co_spawn(web_socket_.get_executor(), write_pictures(), [this](const std::exception_ptr&) {
       writing_ = false;
       writer_done_.cancel();
     });

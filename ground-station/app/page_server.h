@@ -14,10 +14,10 @@ namespace cuscus::gcs {
 
 /// What a page server lets strangers use up.
 struct PageLimits {
-  std::size_t connections{64};               ///< Open at once; more are closed at once.
-  std::size_t clients{16};                   ///< WebSockets among them.
-  std::size_t header_bytes{8192};            ///< Of a request.
-  std::size_t inbound_bytes{65536};          ///< Of a WebSocket message, whose content is ignored.
+  std::size_t connections{64};       ///< Open at once; more are closed at once.
+  std::size_t clients{16};           ///< WebSockets among them.
+  std::size_t header_bytes{8192};    ///< Of a request.
+  std::size_t inbound_bytes{65536};  ///< Of a WebSocket message, whose content is ignored.
   /// From its first byte awaited to the last one of its answer sent.
   std::chrono::milliseconds request_timeout{10'000};
   std::chrono::milliseconds silence_timeout{20'000};  ///< A client that answers no ping is gone.

@@ -13,6 +13,12 @@ export function number(value, decimals = 0) {
   return sign + grouped + (part ? `.${part}` : '');
 }
 
+/** A count that fits into a table's column: "12 345", "123 k", "1.23 M". */
+export function count(value) {
+  if (!(value >= 1e5)) return number(value);
+  return value < 1e6 ? `${number(value / 1e3)} k` : `${number(value / 1e6, 2)} M`;
+}
+
 /** Seconds as "12.3 s" or "2:05". */
 export function duration(seconds) {
   if (!Number.isFinite(seconds)) return NOTHING;

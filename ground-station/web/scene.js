@@ -9,6 +9,8 @@ const TRAIL_BANDS = 8;  // pieces of a trail, each fainter than the next
 const ARM_PX = 7.5;
 const ROTOR_PX = 4.6;
 const PICK_PX = 18;
+const CROWD = 24;       // from this many nodes on, drones are drawn smaller
+const MANY_LINKS = 80;  // from this many on, links are fainter
 
 /** [west, south, east, north] of everything that should be in view. */
 export function boundsOf(placed, circle) {
@@ -38,6 +40,7 @@ export function pick(viewport, placed, x, y) {
 
 function drawLinks(context, viewport, palette, links, byNode, selected) {
   let drawn = 0;
+  const faint = Math.min(1, Math.max(0.25, Math.sqrt(MANY_LINKS / links.length)));
   context.lineCap = 'round';
   for (const link of links) {
     const a = byNode.get(link.a)?.pose;
@@ -45,7 +48,9 @@ function drawLinks(context, viewport, palette, links, byNode, selected) {
     if (!a || !b) continue;
     const concerned = selected === null || link.a === selected || link.b === selected;
     const fresh = 1 - 0.5 * Math.min(1, link.age);
-    context.strokeStyle = levelColour(palette, link.dbm, (concerned ? 0.3 + 0.45 * strength(link.dbm) : 0.07) * fresh);
+    const bold = selected === null ? faint : 1;
+    const alpha = (concerned ? (0.3 + 0.45 * strength(link.dbm)) * bold : 0.07 * faint) * fresh;
+    context.strokeStyle = levelColour(palette, link.dbm, alpha);
     context.lineWidth = 1 + 1.2 * strength(link.dbm) + (concerned && selected !== null ? 0.8 : 0);
     context.setLineDash(link.mutual ? [] : [3, 6]);
     context.beginPath();
@@ -82,14 +87,15 @@ function drawTrail(context, viewport, item, colour, t) {
   context.globalAlpha = 1;
 }
 
-function drawDrone(context, palette, x, y, yaw, colour, { lost, selected }) {
+function drawDrone(context, palette, x, y, yaw, colour, { lost, selected, size }) {
   context.save();
   context.translate(x, y);
+  context.scale(size, size);
   if (selected) {
     context.strokeStyle = palette.accent;
     context.lineWidth = 1.5;
     context.beginPath();
-    context.arc(0, 0, 25, 0, 2 * Math.PI);
+    context.arc(0, 0, 24, 0, 2 * Math.PI);
     context.stroke();
   }
   context.rotate(-yaw);  // counter-clockwise from east; the canvas's y points down
@@ -159,10 +165,18 @@ function drawGhost(context, viewport, palette, item) {
   context.setLineDash([]);
 }
 
+/** Whether a label beside (x, y) would cover no other in `taken`, which it then joins. */
+function isFree(taken, x, y, right) {
+  const box = right ? [x + 28, x + 84, y - 14, y + 14] : [x - 84, x - 28, y - 14, y + 14];
+  const free = taken.every(([x0, x1, y0, y1]) => box[1] < x0 || box[0] > x1 || box[3] < y0 || box[2] > y1);
+  if (free) taken.push(box);
+  return free;
+}
+
 /** Name and altitude beside a node, on the side that looks away from the fleet's middle. */
 function drawLabel(context, palette, x, y, middle, item) {
   const right = x >= middle[0] - 1;
-  const tx = x + (right ? 25 : -25);
+  const tx = x + (right ? 28 : -28);
   context.textAlign = right ? 'left' : 'right';
   context.textBaseline = 'middle';
   context.lineJoin = 'round';
@@ -207,16 +221,24 @@ export function drawScene(context, viewport, palette, { placed, links, circle, t
   }
   if (circle) middle = viewport.toScreen(circle.centre_m);
   let drones = 0;
+  const size = seen.length > CROWD ? 0.7 : 1;
+  const taken = [];
   for (const item of seen) {
     const [x, y] = viewport.toScreen(item.pose.p);
     if (item.node.vehicle) {
       drawDrone(context, palette, x, y, item.pose.yaw, colourOf(item),
-        { lost: item.lost, selected: item.node.node === selected });
+        { lost: item.lost, selected: item.node.node === selected, size });
       ++drones;
     } else {
       drawStation(context, palette, x, y);
     }
-    if (options.labels) drawLabel(context, palette, x, y, middle, item);
+  }
+  if (options.labels) {
+    const first = (item) => Number(item.node.node === selected || !item.node.vehicle);
+    for (const item of [...seen].sort((a, b) => first(b) - first(a))) {
+      const [x, y] = viewport.toScreen(item.pose.p);
+      if (isFree(taken, x, y, x >= middle[0] - 1)) drawLabel(context, palette, x, y, middle, item);
+    }
   }
   drawScaleBar(context, viewport, palette);
   drawNorth(context, viewport, palette);

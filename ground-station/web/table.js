@@ -1,7 +1,7 @@
 // The table of nodes, and the details of the one that is selected.
 
 import { factsOf, factsOfAll, showFacts } from './details.js';
-import { NOTHING, number, percent, sum } from './format.js';
+import { NOTHING, count, number, percent, sum } from './format.js';
 
 function levelOf(value, fair, bad) {
   if (value === undefined || value === null) return '';
@@ -18,9 +18,9 @@ function cellsOf(node, source) {
     [node.vehicle ? number(pose?.speed_mps, 2) : NOTHING],
     [number(telemetry?.age_s, 2), levelOf(telemetry?.age_s, 0.5, 1)],
     [percent(telemetry?.loss), levelOf(telemetry?.loss, 0.05, 0.25)],
-    [number(radio?.transmissions)],
-    [number(radio?.received)],
-    [radio ? number(sum(radio.lost)) : NOTHING],
+    [count(radio?.transmissions)],
+    [count(radio?.received)],
+    [radio ? count(sum(radio.lost)) : NOTHING],
   ];
 }
 

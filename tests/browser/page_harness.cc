@@ -97,8 +97,8 @@ class Child {
     if (pid_ == 0) {
       ::fcntl(child.fd(), F_SETFD, 0);
       // Still the only thread.
-      ::setenv("CUSCUS_CONTROL_FD", std::to_string(child.fd()).c_str(),
-               1);  // NOLINT(concurrency-mt-unsafe)
+      // NOLINTNEXTLINE(concurrency-mt-unsafe)
+      ::setenv("CUSCUS_CONTROL_FD", std::to_string(child.fd()).c_str(), 1);
       ::execl(program.c_str(), program.c_str(), nullptr);
       std::perror(program.c_str());
       ::_exit(127);

@@ -27,7 +27,7 @@ using asio::ip::tcp;
 /// A page server on a loopback port that the kernel chose, on a thread of its own.
 class RunningServer {
  public:
-  explicit RunningServer(PageLimits limits, std::string picture = "{}") {
+  explicit RunningServer(PageLimits limits, const std::string& picture = "{}") {
     posix::UniqueFd listener{
         posix::check("socket", ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0))};
     sockaddr_in address{};
@@ -47,6 +47,8 @@ class RunningServer {
   }
   RunningServer(const RunningServer&) = delete;
   RunningServer& operator=(const RunningServer&) = delete;
+  RunningServer(RunningServer&&) = delete;
+  RunningServer& operator=(RunningServer&&) = delete;
   ~RunningServer() { io_.stop(); }
 
   /// A connection whose reads and writes wait.
@@ -107,7 +109,7 @@ TEST_CASE("what is not HTTP is refused, and the server goes on") {
   RunningServer server{{}};
 
   for (const std::string& garbage :
-       {std::string{"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03 TLS\r\n\r\n", 20},
+       {std::string{"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03 TLS\r\n\r\n", 19},
         std::string{"GET / HTTP/9.9\r\n\r\n"}, std::string{"\0\0\0\0\r\n\r\n", 8},
         "GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(20'000, 'x') + "\r\n\r\n"}) {
     const std::string answer = exchange(server, garbage);
@@ -144,6 +146,7 @@ TEST_CASE("a request that never ends is cut off") {
 TEST_CASE("no more clients than allowed get pictures") {
   RunningServer server{{.clients = 2}};
   std::vector<tcp::socket> sockets;
+  sockets.reserve(3);
   for (int i = 0; i < 3; ++i) {
     sockets.push_back(server.connect());
   }
