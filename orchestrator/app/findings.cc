@@ -1,6 +1,7 @@
 #include "orchestrator/app/findings.h"
 
 #include <fmt/core.h>
+#include <sys/utsname.h>
 
 #include <csignal>
 #include <cstring>
@@ -48,6 +49,12 @@ std::string end_reason(const FlightEnd& end) {
       break;
   }
   return "duration reached";
+}
+
+std::map<std::string, std::string> versions() {
+  utsname system{};
+  static_cast<void>(::uname(&system));
+  return {{"cuscus", CUSCUS_VERSION}, {"kernel", system.release}};
 }
 
 /// The services that were there at the end, in good order, have reported.
@@ -117,6 +124,7 @@ RunOutcome run_outcome(const Plan& plan, const LiveRun& run, const Sampler& samp
       .planned = plan.duration,
       .simulated = SimClock::duration{static_cast<std::int64_t>(run.end().flown_s * 1e9)},
       .end_reason = end_reason(run.end()),
+      .versions = versions(),
       .exit_code = 0,
       .nodes = {},
       .formation_error = sampler.formation_error(),

@@ -21,7 +21,9 @@ Sampler::Sampler(const Plan& plan, const LiveRun& run, MetricsWriter& metrics)
     const auto& circle = node.agent->circle();
     const auto& centre = circle.p_wc_centre_m();
     formations_.push_back(
-        {.circle = {.p_WC_m = {centre.x(), centre.y(), centre.z()}, .radius_m = circle.radius_m()},
+        {.reference = {{.p_WC_m = {centre.x(), centre.y(), centre.z()},
+                        .radius_m = circle.radius_m()},
+                       circle.speed_mps()},
          .nodes = {node.agent->slot_nodes().begin(), node.agent->slot_nodes().end()}});
   }
 }
@@ -33,11 +35,11 @@ void Sampler::sample(double sim_time_s) {
     states_[node.index] = fleet->state(node.index);
     errors_m_[node.index].reset();
   }
-  for (const auto& formation : formations_) {
-    measure(formation);
+  const SimTime time = sim_time(static_cast<std::int64_t>(sim_time_s * 1e9));
+  for (auto& formation : formations_) {
+    measure(formation, time);
   }
   const bool settled = sim_time_s >= to_seconds(plan_.duration) / 2.0;
-  const SimTime time = sim_time(static_cast<std::int64_t>(sim_time_s * 1e9));
   for (const auto& node : plan_.nodes) {
     const auto& error_m = errors_m_[node.index];
     if (settled && error_m) {
@@ -56,7 +58,7 @@ void Sampler::sample(double sim_time_s) {
   }
 }
 
-void Sampler::measure(const Formation& formation) {
+void Sampler::measure(Formation& formation, SimTime now) {
   std::vector<FormationMember> members;
   for (std::uint32_t slot = 0; slot < formation.nodes.size(); ++slot) {
     const auto& state = states_[formation.nodes[slot]];
@@ -66,9 +68,9 @@ void Sampler::measure(const Formation& formation) {
     members.push_back(
         {.p_WB_m = {state->p_WB_m[0], state->p_WB_m[1], state->p_WB_m[2]}, .slot = slot});
   }
-  const FormationError error = orchestrator::formation_error(formation.circle, members);
+  const auto errors_m = formation.reference.errors_m(now, members);
   for (std::size_t slot = 0; slot < members.size(); ++slot) {
-    errors_m_[formation.nodes[slot]] = error.error_m[slot];
+    errors_m_[formation.nodes[slot]] = errors_m[slot];
   }
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "orchestrator/app/live_run.h"
-#include "orchestrator/results/formation_error.h"
+#include "orchestrator/results/formation_reference.h"
 #include "orchestrator/results/metrics.h"
 #include "orchestrator/results/summary.h"
 
@@ -28,11 +28,11 @@ class Sampler {
  private:
   /// UAVs that fly one circle together.
   struct Formation {
-    FormationCircle circle;
+    FormationReference reference;
     std::vector<std::uint32_t> nodes;  // by slot
   };
 
-  void measure(const Formation& formation);
+  void measure(Formation& formation, SimTime now);
 
   const Plan& plan_;
   const LiveRun& run_;

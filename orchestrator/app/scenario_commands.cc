@@ -20,8 +20,7 @@ scenario::Scenario load(const ScenarioArguments& arguments) {
   add("seed", arguments.seed);
   add("clock", arguments.clock);
   if (arguments.no_page) {
-    overrides.push_back(
-        {.option = "--no-page", .path = "ground_station.page", .value = "none"});
+    overrides.push_back({.option = "--no-page", .path = "ground_station.page", .value = "none"});
   }
   for (const auto& text : arguments.set) {
     overrides.push_back(scenario::parse_override(text));

@@ -382,7 +382,7 @@ class Planner {
 
   std::vector<std::string> environment_of(const NodePlan& node) const {
     std::vector<std::string> environment{
-        "PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
+        "PATH=" + std::string{kProgramPath},
         "LANG=C.UTF-8",
         "CUSCUS_NODE=" + std::to_string(node.index),
         "CUSCUS_NAME=" + node.name,

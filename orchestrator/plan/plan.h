@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/scenario/scenario.h"
@@ -94,6 +95,10 @@ struct Plan {
   scenario::Duration metrics_period{};
   CapacityEstimate capacity;
 };
+
+/// PATH of every program in a node.
+inline constexpr std::string_view kProgramPath =
+    "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin";
 
 /// The plan of `scenario`, which has been checked.
 [[nodiscard]] Plan make_plan(const scenario::Scenario& scenario);
