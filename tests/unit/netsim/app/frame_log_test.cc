@@ -21,6 +21,8 @@ class ScratchFile {
   ScratchFile() : fd{posix::check("mkostemp", ::mkostemp(path.data(), O_CLOEXEC))} {}
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
+  ScratchFile(ScratchFile&&) = delete;
+  ScratchFile& operator=(ScratchFile&&) = delete;
   ~ScratchFile() { ::unlink(path.c_str()); }
 
   std::string path{"/tmp/cuscus-frame-log-XXXXXX"};
