@@ -11,16 +11,18 @@ ALLOWED = {
     "common/posix": set(),
     "common/log": set(),
     "common/random": set(),
+    "common/statistics": set(),
     "common/geometry": {"common/units"},
     "common/scenario": {"common/units", "common/geometry"},
     "proto": set(),
     "common/ipc": {"common/posix", "proto"},
 }
 SHARED = set(ALLOWED)
-PURE = {"common/units", "common/random", "common/geometry", "common/scenario"}
+PURE = {"common/units", "common/random", "common/statistics", "common/geometry", "common/scenario"}
 ALLOWED |= {
     "world/dynamics": PURE,
     "world/sensors": PURE | {"world/dynamics"},
+    "world/actuation": PURE | {"proto"},
     "netsim/channel": PURE,
     "netsim/phy": PURE | {"netsim/channel"},
     "netsim/mac": PURE | {"netsim/phy", "netsim/kernel"},
@@ -28,10 +30,16 @@ ALLOWED |= {
     "netsim/air": PURE | {"netsim/kernel", "netsim/channel", "netsim/phy", "netsim/mac"},
     "uav-agent/flight": PURE,
     "uav-agent/missions": PURE | {"uav-agent/flight"},
+    "uav-agent/air": PURE | {"proto", "uav-agent/flight", "uav-agent/missions"},
+    "uav-agent/sdk": PURE | {"uav-agent/flight"},
+    "uav-agent/sdk/sim": PURE
+    | {"common/posix", "common/ipc", "proto", "uav-agent/flight", "uav-agent/sdk"},
     "ground-station/core": PURE | {"proto"},
     "orchestrator/plan": PURE | {"proto"},
-    "orchestrator/results": PURE | {"proto", "orchestrator/plan"},
-    "orchestrator/netlink": {"common/posix"},
+    "orchestrator/netlink": {"common/posix", "proto"},
+    "orchestrator/init": {"common/posix", "common/ipc", "proto"},
+    "orchestrator/node": {"common/posix", "common/ipc", "proto", "orchestrator/netlink"},
+    "orchestrator/results": PURE | {"proto", "common/posix", "orchestrator/plan"},
 }
 for component in ("world", "netsim", "uav-agent", "ground-station", "orchestrator"):
     # The rest of a component (app/, *_main.cc) may use its own folders, and no other component's.

@@ -61,4 +61,6 @@ std::optional<ActuatorCommand> ActuatorMemoryReader::command() const noexcept {
   return layout_->command.load();
 }
 
+std::uint64_t ActuatorMemoryReader::version() const noexcept { return layout_->command.version(); }
+
 }  // namespace cuscus::shm

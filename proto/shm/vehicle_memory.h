@@ -102,6 +102,9 @@ class ActuatorMemoryReader {
   /// As the agent wrote it, unchecked; nothing when it is never readable as a whole.
   [[nodiscard]] std::optional<ActuatorCommand> command() const noexcept;
 
+  /// Changes with every command that is published; cheap to ask at every step.
+  [[nodiscard]] std::uint64_t version() const noexcept;
+
  private:
   const ActuatorMemoryLayout* layout_;
 };

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cuscus::posix {
+
+/// Writes `value` to /proc/sys/`path`, such as "net/ipv4/ip_forward". Below net/ this changes the
+/// calling thread's network namespace. False when the kernel has no such key.
+/// @throws std::system_error naming the key and the value when it may not be written.
+bool write_sysctl(const std::string& path, std::string_view value);
+
+}  // namespace cuscus::posix

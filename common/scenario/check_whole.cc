@@ -1,0 +1,148 @@
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "common/scenario/placeholders.h"
+#include "common/scenario/section_readers.h"
+
+namespace cuscus::scenario {
+namespace {
+
+std::string group_path(std::size_t group) { return "/fleet/" + std::to_string(group); }
+
+void check_counts(const Scenario& scenario, Problems& problems) {
+  const std::uint32_t uavs = scenario.uav_count();
+  if (uavs > kMaxUavs) {
+    problems.add("/fleet", "has " + std::to_string(uavs) + " UAVs; allowed: 1 ... " +
+                               std::to_string(kMaxUavs));
+  }
+  const std::uint32_t nodes = scenario.node_count();
+  const std::uint32_t hosts = scenario.network.subnet.host_count();
+  if (nodes > hosts) {
+    problems.add("/network/subnet", "\"" + subnet_text(scenario.network.subnet) + "\" has " +
+                                        std::to_string(hosts) + " addresses for " +
+                                        std::to_string(nodes) +
+                                        " nodes; allowed: a larger network, such as "
+                                        "\"10.42.0.0/16\"");
+  }
+}
+
+void check_names(const Scenario& scenario, Problems& problems) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    if (!names.insert(scenario.fleet[i].name).second) {
+      problems.add(group_path(i) + "/name", "\"" + scenario.fleet[i].name +
+                                                "\" is the name of a group before; allowed: each "
+                                                "name once");
+    }
+  }
+}
+
+void check_ports(const Scenario& scenario, Problems& problems) {
+  std::map<std::uint16_t, std::string> owners;
+  if (scenario.ground_station.enabled) {
+    owners[scenario.ground_station.telemetry_port] = "/ground_station/telemetry_port";
+  }
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    const Group& group = scenario.fleet[i];
+    const std::string path = group_path(i) + "/neighbours/port";
+    const auto [owner, is_new] = owners.emplace(group.neighbours.port, path);
+    if (!is_new) {
+      problems.add(path, std::to_string(group.neighbours.port) + " is taken by " + owner->second +
+                             "; allowed: a port of its own, 1024 ... 65535");
+    }
+  }
+}
+
+void check_lift(const Scenario& scenario, Problems& problems) {
+  const double most_thrust_N = 4.0 * kX4ThrustFactor_N * kX4SpeedPerCommand * kX4SpeedPerCommand;
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    const auto* x4 = std::get_if<X4Vehicle>(&scenario.fleet[i].vehicle);
+    const double most_mass_kg = most_thrust_N / scenario.world.gravity_mps2;
+    if (x4 != nullptr && x4->mass_kg >= most_mass_kg) {
+      problems.add(group_path(i) + "/vehicle/mass",
+                   "\"" + format_quantity(x4->mass_kg, kMass) +
+                       "\" is more than an x4 lifts; allowed: less than " +
+                       format_quantity(std::floor(most_mass_kg * 1000.0) / 1000.0, kMass));
+    }
+  }
+}
+
+void check_positions(const Scenario& scenario, Problems& problems) {
+  constexpr double kCell_m = 0.01;
+  std::map<std::array<long long, 3>, std::string> taken;
+  const auto place = [&](const Position_m& p_m, const std::string& name, const std::string& path) {
+    if (p_m[2] < 0.0) {
+      problems.add(path, name + " is below the ground, at z = " + format_quantity(p_m[2], kLength) +
+                             "; allowed: z from 0 m");
+    }
+    const auto [owner, is_new] =
+        taken.emplace(std::array{std::llround(p_m[0] / kCell_m), std::llround(p_m[1] / kCell_m),
+                                 std::llround(p_m[2] / kCell_m)},
+                      name);
+    if (!is_new) {
+      problems.add(path,
+                   name + " is where " + owner->second + " is; allowed: positions that are apart");
+    }
+  };
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    const Group& group = scenario.fleet[i];
+    const auto positions = start_positions(group);
+    for (std::uint32_t member = 0; member < group.count; ++member) {
+      place(positions[member], uav_name(group, member), group_path(i) + "/start");
+    }
+  }
+  if (scenario.ground_station.enabled) {
+    place(scenario.ground_station.position_m, std::string{kGroundStationName},
+          "/ground_station/position");
+  }
+}
+
+/// Fills the placeholders in as the plan will, with addresses that only need to exist.
+void check_placeholders(const Scenario& scenario, Problems& problems) {
+  std::set<std::string> names;
+  for (const Group& group : scenario.fleet) {
+    for (std::uint32_t member = 0; member < group.count; ++member) {
+      names.insert(uav_name(group, member));
+    }
+  }
+  PlaceholderValues values;
+  values.index = values.count = values.name = values.group = values.ip = "0";
+  values.broadcast = values.scenario_dir = "0";
+  if (scenario.ground_station.enabled) {
+    names.emplace(kGroundStationName);
+    values.gcs_ip = "0";
+  }
+  values.ip_of = [&names](const std::string& name) {
+    return names.contains(name) ? std::optional<std::string>{"0"} : std::nullopt;
+  };
+  const auto check = [&](const std::string& text, const std::string& path) {
+    try {
+      static_cast<void>(expand(text, values));
+    } catch (const PlaceholderError& error) {
+      problems.add(path, error.what());
+    }
+  };
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    const Group& group = scenario.fleet[i];
+    for (std::size_t argument = 0; argument < group.command.size(); ++argument) {
+      check(group.command[argument], group_path(i) + "/command/" + std::to_string(argument));
+    }
+    for (const auto& [name, text] : group.environment) {
+      check(text, group_path(i) + "/environment/" + name);
+    }
+  }
+}
+
+}  // namespace
+
+void check_whole(const Scenario& scenario, Problems& problems) {
+  check_counts(scenario, problems);
+  check_names(scenario, problems);
+  check_ports(scenario, problems);
+  check_lift(scenario, problems);
+  check_positions(scenario, problems);
+  check_placeholders(scenario, problems);
+}
+
+}  // namespace cuscus::scenario

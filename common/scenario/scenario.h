@@ -1,0 +1,257 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "common/scenario/ipv4.h"
+#include "common/scenario/override.h"
+#include "common/units/decibel.h"
+#include "common/units/sim_time.h"
+
+/// What a scenario file says, checked, in SI units, defaults filled in. docs/scenario.md describes
+/// every key; the members here have the keys' names with their units.
+namespace cuscus::scenario {
+
+using Duration = SimClock::duration;
+
+/// UAVs that one scenario may have.
+inline constexpr std::uint32_t kMaxUavs = 1000;
+
+struct FriisPropagation {};
+
+struct LogDistancePropagation {
+  double exponent{3.0};
+  /// At 1 m; nothing: free-space loss at 1 m.
+  std::optional<Decibel> reference_loss;
+};
+
+/// Equation 1 of the CUSCUS paper (doi 10.1016/j.adhoc.2017.09.004).
+struct PaperPropagation {
+  double alpha{20.0};
+  double chi_dB2{0.0};  ///< Variance of Psi.
+};
+
+using Propagation = std::variant<FriisPropagation, LogDistancePropagation, PaperPropagation>;
+
+enum class RadioStandard { k80211g };
+enum class ErrorModel { kNist };
+
+struct PreambleDetection {
+  DecibelMilliwatt minimum_power{-82.0};
+  Decibel minimum_sinr{4.0};
+};
+
+struct Radio {
+  RadioStandard standard{RadioStandard::k80211g};
+  std::uint32_t data_rate_kbps{6000};   ///< Individually addressed frames.
+  std::uint32_t group_rate_kbps{6000};  ///< Broadcast and multicast frames.
+  std::vector<std::uint32_t> basic_rates_kbps{6000, 12000, 24000};
+  double channel_frequency_hz{2.437e9};
+  DecibelMilliwatt tx_power{16.0};
+  Decibel antenna_gain{0.0};
+  Decibel noise_figure{7.0};
+  Duration slot{std::chrono::microseconds{20}};
+  std::uint32_t retry_limit{7};  ///< Attempts per frame.
+  std::uint32_t queue_frames{500};
+  Duration queue_lifetime{std::chrono::milliseconds{500}};
+  ErrorModel error_model{ErrorModel::kNist};
+  DecibelMilliwatt cca_preamble{-82.0};
+  DecibelMilliwatt cca_energy{-62.0};
+  /// Nothing: every frame is attempted, however weak.
+  std::optional<PreambleDetection> preamble_detection{PreambleDetection{}};
+  Propagation propagation{FriisPropagation{}};
+};
+
+enum class Attach { kBridge, kDirect };
+enum class AddressResolution { kStatic, kArp };
+
+struct Network {
+  Subnet subnet{.network = 0x0a2a0000, .prefix_length = 16};  // 10.42.0.0/16
+  Attach attach{Attach::kBridge};
+  AddressResolution neighbours{AddressResolution::kStatic};
+  bool ipv6{false};
+  std::uint32_t mtu_bytes{1500};
+  bool hosts{true};  ///< Every node finds the others by name.
+};
+
+struct World {
+  Duration step{std::chrono::milliseconds{1}};
+  double gravity_mps2{9.81};
+  Duration imu_period{std::chrono::milliseconds{5}};
+  // PX4's gz-classic IMU at 200 Hz: 8.7266e-4 rad/s/rtHz and 6.37e-3 m/s^2/rtHz, rounded.
+  double gyro_noise_radps{0.0125};
+  double accelerometer_noise_mps2{0.09};
+  Duration motion_capture_period{std::chrono::milliseconds{10}};
+  double motion_capture_noise_m{0.0002};
+  double motion_capture_noise_rad{0.001};
+};
+
+/// FL-AIR's quadrotor; defaults are the ones of its simulator_x4.xml.
+struct X4Vehicle {
+  double mass_kg{1.2};
+  double arm_m{0.2};
+  double inertia_roll_kgm2{0.006};
+  double inertia_pitch_kgm2{0.006};
+  double inertia_yaw_kgm2{0.1};
+  double drag_vertical_Nspm{0.01};
+  double drag_lateral_Nspm{0.4};
+  Duration motor_timeout{std::chrono::milliseconds{100}};
+  bool faithful{false};  ///< FL-AIR's own integrator and signs.
+};
+
+// Of the same source: thrust = kX4ThrustFactor u^2, torque = kX4TorqueFactor u^2, with the motor's
+// speed u = kX4SpeedPerCommand x command.
+inline constexpr double kX4ThrustFactor_N = 0.001;
+inline constexpr double kX4TorqueFactor_Nm = 0.001;
+inline constexpr double kX4SpeedPerCommand = 86.0;
+
+/// A radio node that stays where it starts, without physics.
+struct FixedVehicle {};
+
+using Vehicle = std::variant<X4Vehicle, FixedVehicle>;
+
+/// A position in the world frame W: ENU, z = 0 on the ground [m].
+using Position_m = std::array<double, 3>;
+
+struct CircleLayout {
+  double radius_m{20.0};
+  Position_m centre_m{};
+};
+
+/// As square as it can be, rows from south to north.
+struct GridLayout {
+  double spacing_m{2.0};
+  Position_m centre_m{};
+};
+
+struct LineLayout {
+  double spacing_m{2.0};
+  Position_m centre_m{};
+  double direction_rad{0.0};  ///< Counter-clockwise from east.
+};
+
+struct ListLayout {
+  std::vector<Position_m> positions_m;
+};
+
+struct Start {
+  std::variant<CircleLayout, GridLayout, LineLayout, ListLayout> layout{GridLayout{}};
+  double heading_rad{0.0};  ///< Counter-clockwise from east.
+};
+
+struct CircleMission {
+  std::array<double, 2> centre_m{};
+  double radius_m{20.0};
+  double altitude_m{10.0};
+  double speed_mps{2.0};
+  double spacing_gain{0.2};  ///< Angular speed per radian of spacing error [1/s].
+};
+
+enum class NeighbourSource { kBeacons, kMotionCapture };
+
+struct Neighbours {
+  NeighbourSource source{NeighbourSource::kBeacons};
+  Duration beacon_period{std::chrono::milliseconds{50}};
+  Duration timeout{std::chrono::milliseconds{500}};
+  std::uint16_t port{0};
+};
+
+/// What a UAV's program means for the run when it ends early with an error or a signal.
+enum class OnExit { kFail, kMark, kIgnore };
+
+/// UAVs of one kind: one formation, named <name>0, <name>1, ...
+struct Group {
+  std::string name;
+  std::uint32_t count{1};
+  Vehicle vehicle;
+  Start start;
+  bool autopilot{true};
+  std::optional<CircleMission> mission;
+  Neighbours neighbours;
+  Duration control_period{std::chrono::milliseconds{5}};
+  Duration telemetry_period{std::chrono::milliseconds{200}};
+  /// The group's own program and its arguments, with placeholders; empty: none. The executable is
+  /// absolute, or a name without '/' to be searched in PATH.
+  std::vector<std::string> command;
+  std::map<std::string, std::string> environment;  ///< Values have placeholders too.
+  std::vector<std::string> capabilities;           ///< Of the command: "cap_net_raw", ...
+  OnExit on_exit{OnExit::kMark};
+
+  [[nodiscard]] bool is_fixed() const { return std::holds_alternative<FixedVehicle>(vehicle); }
+};
+
+struct GroundStation {
+  bool enabled{true};
+  Position_m position_m{0.0, 0.0, 1.0};
+  std::uint16_t telemetry_port{47000};
+  /// Port of the operator's page on 127.0.0.1; nothing: no page.
+  std::optional<std::uint16_t> page_port{8080};
+};
+
+/// Name of the ground station's node.
+inline constexpr std::string_view kGroundStationName = "gcs";
+
+struct Record {
+  bool frames{false};  ///< A line per frame on the air.
+  Duration metrics_period{std::chrono::milliseconds{100}};
+};
+
+enum class ClockSource { kReal };
+
+struct Scenario {
+  std::string name;
+  std::string description;
+  std::uint64_t seed{1};
+  Duration duration{std::chrono::seconds{60}};
+  ClockSource clock{ClockSource::kReal};
+  bool realtime{true};  ///< Ask for SCHED_FIFO.
+  Radio radio;
+  Network network;
+  World world;
+  std::vector<Group> fleet;
+  GroundStation ground_station;
+  Record record;
+  /// Absolute folder of the scenario file, {scenario_dir} in commands. Not a key.
+  std::filesystem::path folder;
+
+  [[nodiscard]] std::uint32_t uav_count() const;
+  /// UAVs, and the ground station when there is one.
+  [[nodiscard]] std::uint32_t node_count() const;
+};
+
+/// Reads, checks and fills in the scenario in `file`.
+/// @throws ScenarioError with every problem found.
+[[nodiscard]] Scenario load_scenario(const std::filesystem::path& file,
+                                     std::span<const Override> overrides = {});
+
+/// The same for `text`; `source` names it in messages, and `folder`, absolute, is where relative
+/// executables are looked for.
+[[nodiscard]] Scenario parse_scenario(std::string_view text, const std::string& source,
+                                      const std::filesystem::path& folder,
+                                      std::span<const Override> overrides = {});
+
+/// The scenario with every key written out. Parsing it gives the same scenario again.
+[[nodiscard]] nlohmann::ordered_json to_json(const Scenario& scenario);
+
+/// Name of UAV `member` of `group`: "uav3".
+[[nodiscard]] std::string uav_name(const Group& group, std::uint32_t member);
+
+/// Where the members of `group` start, in order.
+[[nodiscard]] std::vector<Position_m> start_positions(const Group& group);
+
+/// Rates of `standard` [kb/s], rising.
+[[nodiscard]] std::span<const std::uint32_t> rates_kbps(RadioStandard standard);
+
+/// The JSON schema of scenarios (draft-07), as it is in scenarios/scenario.schema.json.
+[[nodiscard]] std::string_view scenario_schema();
+
+}  // namespace cuscus::scenario

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "common/scenario/object_reader.h"
+#include "common/scenario/scenario.h"
+
+// The sections of a scenario file. `value` is null when the section is absent. What is wrong goes
+// to `problems`.
+namespace cuscus::scenario {
+
+[[nodiscard]] Radio read_radio(const nlohmann::json* value, Problems& problems);
+[[nodiscard]] Network read_network(const nlohmann::json* value, Problems& problems);
+[[nodiscard]] World read_world(const nlohmann::json* value, Problems& problems);
+[[nodiscard]] GroundStation read_ground_station(const nlohmann::json* value, Problems& problems);
+[[nodiscard]] std::vector<Group> read_fleet(const nlohmann::json* value,
+                                            const std::filesystem::path& folder,
+                                            Problems& problems);
+
+/// What no section can know alone: limits of the whole fleet, addresses, ports, placeholders. Call
+/// it only with a scenario whose sections had no problems.
+void check_whole(const Scenario& scenario, Problems& problems);
+
+/// Holds `document` against the JSON schema, as a second pair of eyes.
+void check_against_schema(const nlohmann::json& document, Problems& problems);
+
+}  // namespace cuscus::scenario

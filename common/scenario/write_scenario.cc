@@ -1,0 +1,206 @@
+#include <nlohmann/json.hpp>
+
+#include "common/scenario/names.h"
+#include "common/scenario/scenario.h"
+#include "common/scenario/units.h"
+
+namespace cuscus::scenario {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text(Duration duration) {
+  return format_quantity(static_cast<double>(duration.count()), kTime);
+}
+
+std::string rate_text(Duration period) {
+  return format_quantity(1e9 / static_cast<double>(period.count()), kFrequency);
+}
+
+std::string bit_rate_text(std::uint32_t rate_kbps) { return format_quantity(rate_kbps, kBitRate); }
+
+template <std::size_t n>
+Json lengths(const std::array<double, n>& values_m) {
+  Json array = Json::array();
+  for (const double value_m : values_m) {
+    array.push_back(format_quantity(value_m, kLength));
+  }
+  return array;
+}
+
+Json json_of(const FriisPropagation& /*model*/) { return {{"model", "friis"}}; }
+
+Json json_of(const LogDistancePropagation& model) {
+  return {{"model", "log-distance"},
+          {"exponent", model.exponent},
+          {"reference_loss", model.reference_loss
+                                 ? format_quantity(model.reference_loss->value, kPowerRatio)
+                                 : "free-space"}};
+}
+
+Json json_of(const PaperPropagation& model) {
+  return {{"model", "paper-eq1"},
+          {"alpha", model.alpha},
+          {"chi", format_quantity(model.chi_dB2, kVariance)}};
+}
+
+Json json_of(const Radio& radio) {
+  Json basic_rates = Json::array();
+  for (const std::uint32_t rate_kbps : radio.basic_rates_kbps) {
+    basic_rates.push_back(bit_rate_text(rate_kbps));
+  }
+  Json detection = "none";
+  if (radio.preamble_detection) {
+    const auto& [power, sinr] = *radio.preamble_detection;
+    detection = {{"minimum_power", format_quantity(power.value, kPower)},
+                 {"minimum_sinr", format_quantity(sinr.value, kPowerRatio)}};
+  }
+  return {{"standard", name_of(kRadioStandardNames, radio.standard)},
+          {"data_rate", bit_rate_text(radio.data_rate_kbps)},
+          {"group_rate", bit_rate_text(radio.group_rate_kbps)},
+          {"basic_rates", basic_rates},
+          {"channel_frequency", format_quantity(radio.channel_frequency_hz, kFrequency)},
+          {"tx_power", format_quantity(radio.tx_power.value, kPower)},
+          {"antenna_gain", format_quantity(radio.antenna_gain.value, kPowerRatio)},
+          {"noise_figure", format_quantity(radio.noise_figure.value, kPowerRatio)},
+          {"slot", text(radio.slot)},
+          {"retry_limit", radio.retry_limit},
+          {"queue", {{"frames", radio.queue_frames}, {"lifetime", text(radio.queue_lifetime)}}},
+          {"error_model", name_of(kErrorModelNames, radio.error_model)},
+          {"cca",
+           {{"preamble", format_quantity(radio.cca_preamble.value, kPower)},
+            {"energy", format_quantity(radio.cca_energy.value, kPower)}}},
+          {"preamble_detection", detection},
+          {"propagation",
+           std::visit([](const auto& model) { return json_of(model); }, radio.propagation)}};
+}
+
+Json json_of(const World& world) {
+  return {
+      {"step", text(world.step)},
+      {"gravity", format_quantity(world.gravity_mps2, kAcceleration)},
+      {"imu",
+       {{"rate", rate_text(world.imu_period)},
+        {"gyro_noise", format_quantity(world.gyro_noise_radps, kAngularRate)},
+        {"accelerometer_noise", format_quantity(world.accelerometer_noise_mps2, kAcceleration)}}},
+      {"motion_capture",
+       {{"rate", rate_text(world.motion_capture_period)},
+        {"position_noise", format_quantity(world.motion_capture_noise_m, kLength)},
+        {"attitude_noise", format_quantity(world.motion_capture_noise_rad, kAngle)}}}};
+}
+
+Json json_of(const FixedVehicle& /*vehicle*/) { return {{"model", "fixed"}}; }
+
+Json json_of(const X4Vehicle& x4) {
+  return {{"model", "x4"},
+          {"mass", format_quantity(x4.mass_kg, kMass)},
+          {"arm", format_quantity(x4.arm_m, kLength)},
+          {"inertia",
+           {{"roll", format_quantity(x4.inertia_roll_kgm2, kMomentOfInertia)},
+            {"pitch", format_quantity(x4.inertia_pitch_kgm2, kMomentOfInertia)},
+            {"yaw", format_quantity(x4.inertia_yaw_kgm2, kMomentOfInertia)}}},
+          {"drag",
+           {{"vertical", format_quantity(x4.drag_vertical_Nspm, kDrag)},
+            {"lateral", format_quantity(x4.drag_lateral_Nspm, kDrag)}}},
+          {"motor_timeout", text(x4.motor_timeout)},
+          {"faithful", x4.faithful}};
+}
+
+Json json_of(const CircleLayout& circle) {
+  return {{"layout", "circle"},
+          {"radius", format_quantity(circle.radius_m, kLength)},
+          {"centre", lengths(circle.centre_m)}};
+}
+
+Json json_of(const GridLayout& grid) {
+  return {{"layout", "grid"},
+          {"spacing", format_quantity(grid.spacing_m, kLength)},
+          {"centre", lengths(grid.centre_m)}};
+}
+
+Json json_of(const LineLayout& line) {
+  return {{"layout", "line"},
+          {"spacing", format_quantity(line.spacing_m, kLength)},
+          {"centre", lengths(line.centre_m)},
+          {"direction", format_quantity(line.direction_rad, kAngle)}};
+}
+
+Json json_of(const ListLayout& list) {
+  Json positions = Json::array();
+  for (const Position_m& position_m : list.positions_m) {
+    positions.push_back(lengths(position_m));
+  }
+  return {{"layout", "list"}, {"positions", positions}};
+}
+
+Json json_of(const std::optional<CircleMission>& mission) {
+  if (!mission) {
+    return "none";
+  }
+  return {{"type", "circle"},
+          {"centre", lengths(mission->centre_m)},
+          {"radius", format_quantity(mission->radius_m, kLength)},
+          {"altitude", format_quantity(mission->altitude_m, kLength)},
+          {"speed", format_quantity(mission->speed_mps, kSpeed)},
+          {"spacing_gain", mission->spacing_gain}};
+}
+
+Json json_of(const Group& group) {
+  Json start = std::visit([](const auto& layout) { return json_of(layout); }, group.start.layout);
+  start["heading"] = format_quantity(group.start.heading_rad, kAngle);
+  return {
+      {"name", group.name},
+      {"count", group.count},
+      {"vehicle", std::visit([](const auto& vehicle) { return json_of(vehicle); }, group.vehicle)},
+      {"start", start},
+      {"autopilot", group.autopilot},
+      {"mission", json_of(group.mission)},
+      {"neighbours",
+       {{"source", name_of(kNeighbourSourceNames, group.neighbours.source)},
+        {"beacon_period", text(group.neighbours.beacon_period)},
+        {"timeout", text(group.neighbours.timeout)},
+        {"port", group.neighbours.port}}},
+      {"control_period", text(group.control_period)},
+      {"telemetry_period", text(group.telemetry_period)},
+      {"command", group.command.empty() ? Json("none") : Json(group.command)},
+      {"environment", Json(group.environment)},
+      {"capabilities", Json(group.capabilities)},
+      {"on_exit", name_of(kOnExitNames, group.on_exit)}};
+}
+
+}  // namespace
+
+Json to_json(const Scenario& scenario) {
+  Json fleet = Json::array();
+  for (const Group& group : scenario.fleet) {
+    fleet.push_back(json_of(group));
+  }
+  const Network& network = scenario.network;
+  const GroundStation& station = scenario.ground_station;
+  return {{"name", scenario.name},
+          {"description", scenario.description},
+          {"seed", scenario.seed},
+          {"duration", text(scenario.duration)},
+          {"clock", name_of(kClockNames, scenario.clock)},
+          {"realtime", scenario.realtime},
+          {"radio", json_of(scenario.radio)},
+          {"network",
+           {{"subnet", subnet_text(network.subnet)},
+            {"attach", name_of(kAttachNames, network.attach)},
+            {"neighbours", name_of(kAddressResolutionNames, network.neighbours)},
+            {"ipv6", network.ipv6},
+            {"mtu", network.mtu_bytes},
+            {"hosts", network.hosts}}},
+          {"world", json_of(scenario.world)},
+          {"fleet", fleet},
+          {"ground_station",
+           {{"enabled", station.enabled},
+            {"position", lengths(station.position_m)},
+            {"telemetry_port", station.telemetry_port},
+            {"page", station.page_port ? Json{{"port", *station.page_port}} : Json("none")}}},
+          {"record",
+           {{"frames", scenario.record.frames},
+            {"metrics_period", text(scenario.record.metrics_period)}}}};
+}
+
+}  // namespace cuscus::scenario

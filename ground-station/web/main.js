@@ -1,0 +1,139 @@
+// Wires the page together: snapshots into the model, the model onto canvas and table.
+
+import { connect } from './connection.js';
+import { FleetModel } from './model.js';
+import { FleetTable } from './table.js';
+import { Viewport, listen } from './viewport.js';
+import { boundsOf, drawScene, pick } from './scene.js';
+import { drawLegend, readPalette } from './colours.js';
+import { showConnection, showRun } from './header.js';
+
+const element = (id) => document.getElementById(id);
+const seconds = () => performance.now() / 1000;
+
+const canvas = element('plan');
+const context = canvas.getContext('2d', { alpha: false });
+const model = new FleetModel();
+const viewport = new Viewport();
+const options = { source: 'truth', links: true, trails: true, labels: true };
+let palette = readPalette();
+let selected = null;
+let placed = [];
+let links = [];
+let everLive = false;
+let lastFrame = seconds();
+let requested = false;
+
+function requestFrame() {
+  if (requested) return;
+  requested = true;
+  requestAnimationFrame(frame);
+}
+
+function frame() {
+  requested = false;
+  const now = seconds();
+  const t = model.shownTime(now);
+  placed = model.poses(options.source, t);
+  const circle = model.snapshot?.circle;
+  const moving = viewport.follow(boundsOf(placed, circle), Math.min(0.1, now - lastFrame));
+  lastFrame = now;
+  const drawn = drawScene(context, viewport, palette, { placed, links, circle, t, options, selected });
+  canvas.dataset.drones = drawn.drones;
+  canvas.dataset.links = drawn.links;
+  // A picture that stands still is drawn again only when something asks for it.
+  if (moving || document.body.dataset.connection === 'live') requestFrame();
+}
+
+function select(node) {
+  selected = node;
+  table.select(node);
+  if (model.snapshot) table.show(model.snapshot, options.source);
+  requestFrame();
+}
+
+const table = new FleetTable(element('fleet'), element('details'), select);
+
+function setSource(source) {
+  options.source = source;
+  element('show-truth').setAttribute('aria-pressed', String(source === 'truth'));
+  element('show-telemetry').setAttribute('aria-pressed', String(source === 'telemetry'));
+  if (model.snapshot) table.show(model.snapshot, source);
+  requestFrame();
+}
+
+function toggle(name) {
+  options[name] = !options[name];
+  element(`show-${name}`).setAttribute('aria-pressed', String(options[name]));
+  requestFrame();
+}
+
+const actions = {
+  'show-truth': () => setSource('truth'),
+  'show-telemetry': () => setSource('telemetry'),
+  'show-links': () => toggle('links'),
+  'show-trails': () => toggle('trails'),
+  'show-labels': () => toggle('labels'),
+  'zoom-in': () => viewport.zoom(1.4),
+  'zoom-out': () => viewport.zoom(1 / 1.4),
+  'zoom-fit': () => viewport.fit(),
+};
+for (const [id, action] of Object.entries(actions)) {
+  element(id).addEventListener('click', () => {
+    action();
+    requestFrame();
+  });
+}
+
+const keys = {
+  t: () => setSource(options.source === 'truth' ? 'telemetry' : 'truth'),
+  l: () => toggle('links'),
+  r: () => toggle('trails'),
+  n: () => toggle('labels'),
+  '+': actions['zoom-in'],
+  '=': actions['zoom-in'],
+  '-': actions['zoom-out'],
+  0: actions['zoom-fit'],
+  Escape: () => select(null),
+};
+document.addEventListener('keydown', (event) => {
+  if (event.ctrlKey || event.metaKey || event.altKey || !keys[event.key]) return;
+  keys[event.key]();
+  requestFrame();
+});
+
+new ResizeObserver(() => {
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const ratio = window.devicePixelRatio || 1;
+  canvas.width = Math.max(1, Math.round(width * ratio));
+  canvas.height = Math.max(1, Math.round(height * ratio));
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  viewport.resize(width, height);
+  requestFrame();
+}).observe(canvas);
+
+function showColours() {
+  palette = readPalette();
+  drawLegend(palette, element('legend'), element('legend-ticks'));
+  requestFrame();
+}
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', showColours);
+showColours();
+
+listen(canvas, viewport, requestFrame, (x, y) => select(pick(viewport, placed, x, y)));
+
+function showState(state) {
+  showConnection(model.ended ? 'ended' : state, everLive);
+  requestFrame();
+}
+
+connect((snapshot) => {
+  everLive = true;
+  model.apply(snapshot, seconds());
+  links = model.links();
+  showRun(snapshot);
+  table.show(snapshot, options.source);
+  showState('live');
+}, (state) => {
+  if (state !== 'live') showState(state);
+});

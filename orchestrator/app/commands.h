@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/scenario/scenario.h"
+
+/// The subcommands of `cuscus`. Each returns its exit code; UsageError and ScenarioError become
+/// exit code 2 in main, everything else 1.
+namespace cuscus::orchestrator {
+
+/// A scenario and what the command line changes of it.
+struct ScenarioArguments {
+  std::filesystem::path file;
+  std::optional<std::string> duration;
+  std::optional<std::string> seed;
+  std::optional<std::string> clock;
+  std::vector<std::string> set;  ///< PATH=VALUE
+};
+
+struct RunArguments {
+  ScenarioArguments scenario;
+  std::optional<std::filesystem::path> out;  ///< Else runs/<run id>.
+  bool no_page{false};
+};
+
+/// Loads the scenario with the command line's changes.
+[[nodiscard]] scenario::Scenario load(const ScenarioArguments& arguments);
+
+int run_command(const RunArguments& arguments);
+int check_command(const ScenarioArguments& arguments, bool json);
+int schema_command();
+int ps_command(bool json);
+/// `run_id` may be empty when one run is alive.
+int stop_command(const std::string& run_id);
+int exec_command(const std::string& run_id, const std::string& node,
+                 const std::vector<std::string>& arguments);
+int clean_command();
+int doctor_command(std::size_t nodes);
+
+}  // namespace cuscus::orchestrator

@@ -1,0 +1,154 @@
+#include "orchestrator/app/findings.h"
+
+#include <fmt/core.h>
+
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace cuscus::orchestrator {
+namespace {
+
+const proto::Report* report_of(const Service* service) {
+  return service != nullptr && service->component().report() ? &*service->component().report()
+                                                             : nullptr;
+}
+
+const proto::Report* report_of(const NodeProgram& program) {
+  return program.component && program.component->report() ? &*program.component->report() : nullptr;
+}
+
+ProgramOutcome outcome_of(const NodeProgram& program) {
+  ProgramOutcome outcome{.kind = program.plan->kind,
+                         .program = program.plan->arguments.at(0),
+                         .exit_code = {},
+                         .signal_number = {},
+                         .error = program.error,
+                         .ended_at = {}};
+  if (program.status && program.status->signal_number != 0) {
+    outcome.signal_number = program.status->signal_number;
+  } else if (program.status) {
+    outcome.exit_code = program.status->exit_code;
+  }
+  if (program.has_ended() && program.ended_early) {
+    outcome.ended_at = SimClock::duration{static_cast<std::int64_t>(program.ended_at_s * 1e9)};
+  }
+  return outcome;
+}
+
+std::string end_reason(const FlightEnd& end) {
+  switch (end.kind) {
+    case FlightEnd::Kind::kInterrupted:
+      return fmt::format("interrupted by {}", ::sigdescr_np(end.signal_number));
+    case FlightEnd::Kind::kFailed:
+      return end.reason;
+    case FlightEnd::Kind::kCompleted:
+      break;
+  }
+  return "duration reached";
+}
+
+/// The services that were there at the end, in good order, have reported.
+void add_failures(const LiveRun& run, std::vector<std::string>& failures) {
+  if (run.end().kind == FlightEnd::Kind::kFailed) {
+    failures.push_back(run.end().reason);
+  }
+  for (const Service* const service : {run.netsim(), run.world()}) {
+    if (service == nullptr) {
+      continue;
+    }
+    const std::string trouble = service->trouble();
+    if (!trouble.empty() && (failures.empty() || failures.front() != trouble)) {
+      failures.push_back(trouble);
+    }
+  }
+}
+
+}  // namespace
+
+std::int64_t suspended_ns() {
+  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+  timespec boot{};
+  timespec monotonic{};
+  ::clock_gettime(CLOCK_BOOTTIME, &boot);
+  ::clock_gettime(CLOCK_MONOTONIC, &monotonic);
+  return (boot.tv_sec - monotonic.tv_sec) * kNanosecondsPerSecond + boot.tv_nsec -
+         monotonic.tv_nsec;
+}
+
+nlohmann::ordered_json resolved_scenario(const scenario::Scenario& scenario) {
+  return scenario::to_json(scenario);
+}
+
+FidelityInputs fidelity_inputs(const Plan& plan, const LiveRun& run, const RunFacts& facts) {
+  FidelityInputs inputs;
+  if (const auto* const report = report_of(run.netsim()); report && report->has_radio()) {
+    inputs.radio = report->radio();
+  }
+  if (const auto* const report = report_of(run.world()); report && report->has_world()) {
+    inputs.world = report->world();
+  }
+  add_failures(run, inputs.failures);
+  const auto drops = run.tap_drops();
+  inputs.tap_drops = std::accumulate(drops.begin(), drops.end(), std::uint64_t{0});
+  if (run.crew() != nullptr) {
+    for (const auto& program : run.crew()->programs()) {
+      if (const auto* const report = report_of(program); report && report->has_agent()) {
+        inputs.agent_loops += report->agent().loops();
+        inputs.agent_overruns += report->agent().overruns();
+      }
+    }
+  }
+  inputs.suspended = facts.suspended;
+  inputs.longest_supervision_gap = facts.longest_gap;
+  inputs.realtime_wanted = plan.realtime;
+  return inputs;
+}
+
+RunOutcome run_outcome(const Plan& plan, const LiveRun& run, const Sampler& sampler,
+                       const RunFacts& facts) {
+  RunOutcome outcome{
+      .run_id = facts.run_id,
+      .scenario_name = plan.scenario_name,
+      .seed = plan.seed,
+      .started_utc = facts.started_utc,
+      .planned = plan.duration,
+      .simulated = SimClock::duration{static_cast<std::int64_t>(run.end().flown_s * 1e9)},
+      .end_reason = end_reason(run.end()),
+      .exit_code = 0,
+      .nodes = {},
+      .formation_error = sampler.formation_error(),
+      .ground_station = {}};
+  const auto& fleet = run.memories().fleet_reader();
+  const auto& radio = run.memories().radio_reader();
+  for (const auto& node : plan.nodes) {
+    outcome.nodes.push_back({.index = node.index,
+                             .name = node.name,
+                             .role = node.role,
+                             .radio = radio ? radio->tally(node.index) : std::nullopt,
+                             .commands = fleet && node.role == NodeRole::kUav
+                                             ? fleet->commands(node.index)
+                                             : std::nullopt,
+                             .agent = {},
+                             .formation_error = sampler.formation_error(node.index),
+                             .programs = {}});
+  }
+  if (run.crew() == nullptr) {
+    return outcome;
+  }
+  for (const auto& program : run.crew()->programs()) {
+    auto& node = outcome.nodes[program.node];
+    node.programs.push_back(outcome_of(program));
+    const auto* const report = report_of(program);
+    if (report != nullptr && report->has_agent()) {
+      node.agent = report->agent();
+    } else if (report != nullptr && report->has_ground_station()) {
+      outcome.ground_station = report->ground_station();
+    }
+  }
+  return outcome;
+}
+
+}  // namespace cuscus::orchestrator

@@ -1,0 +1,397 @@
+#include "orchestrator/app/live_run.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <boost/asio/steady_timer.hpp>
+#include <csignal>
+#include <stdexcept>
+#include <utility>
+
+#include "common/posix/check.h"
+#include "common/posix/monotonic_clock.h"
+#include "orchestrator/node/node_identity.h"
+
+namespace cuscus::orchestrator {
+namespace {
+
+using proto::Descriptors;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kReadyLimit{20'000};
+/// From Start to SimTime 0: every child has read its Start by then.
+constexpr std::int64_t kStartLead_ns = 100'000'000;
+/// Without a heartbeat for this long a service of ours is hung.
+constexpr milliseconds kHeartbeatLimit{5'000};
+/// Together below the five seconds in which an interrupted run has to be over.
+constexpr milliseconds kStopLimit{1'500};
+constexpr milliseconds kTerminateLimit{700};
+constexpr milliseconds kKillLimit{500};
+constexpr milliseconds kServiceStopLimit{1'500};
+constexpr milliseconds kProgressPeriod{200};
+
+enum Services : std::uint32_t { kWorldService = 0, kNetsimService = 1 };
+
+struct RunFailed : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+struct RunInterrupted {};
+
+std::vector<std::uint32_t> vehicles_of(const Plan& plan) {
+  std::vector<std::uint32_t> vehicles;
+  for (const auto& node : plan.nodes) {
+    if (node.role == NodeRole::kUav) {
+      vehicles.push_back(node.index);
+    }
+  }
+  return vehicles;
+}
+
+netlink::Ipv4Address address_of(const std::string& text) {
+  const std::uint32_t number = scenario::parse_ipv4(text).value();
+  return {static_cast<std::uint8_t>(number >> 24U), static_cast<std::uint8_t>(number >> 16U),
+          static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number)};
+}
+
+std::vector<node::NodeNetwork> networks_of(const Plan& plan) {
+  std::vector<node::NodeNetwork> networks;
+  for (const auto& node : plan.nodes) {
+    networks.push_back({.index = node.index,
+                        .name = node.name,
+                        .mac = node.mac,
+                        .address = {.address = address_of(node.ip),
+                                    .length = static_cast<std::uint8_t>(plan.subnet.prefix_length)},
+                        .mtu_bytes = plan.mtu_bytes,
+                        .attachment = plan.attach == scenario::Attach::kBridge
+                                          ? node::Attachment::kBridge
+                                          : node::Attachment::kDirect,
+                        .ipv6 = plan.ipv6});
+  }
+  return networks;
+}
+
+posix::UniqueFd open_service_log(const std::filesystem::path& path) {
+  return posix::UniqueFd{
+      posix::check("open " + path.native(),
+                   ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644))};
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const Plan& plan, RunSettings settings)
+    : plan_{plan},
+      settings_{std::move(settings)},
+      signals_{loop_, SIGINT, SIGTERM, SIGHUP},
+      memories_{static_cast<std::uint32_t>(plan.nodes.size()), vehicles_of(plan)} {
+  watch_signals();
+}
+
+LiveRun::~LiveRun() = default;
+
+template <typename Body>
+bool LiveRun::guarded(const Body& body) {
+  try {
+    body();
+    return true;
+  } catch (const RunInterrupted&) {
+    end_.kind = FlightEnd::Kind::kInterrupted;
+    end_.signal_number = signal_number_;
+  } catch (const std::exception& error) {
+    end_.kind = FlightEnd::Kind::kFailed;
+    end_.reason = error.what();
+  }
+  end_.flown_s = sim_time_s();
+  return false;
+}
+
+bool LiveRun::set_up() {
+  return guarded([&] {
+    start_world();
+    build_nodes();
+    start_netsim();
+    start_programs();
+  });
+}
+
+void LiveRun::fly(const OnSample& on_sample) {
+  guarded([&] {
+    start_clock();
+    Progress progress{plan_.duration};
+    const auto start = steady_clock::time_point{std::chrono::nanoseconds{start_monotonic_ns_}};
+    const auto finish = start + plan_.duration;
+    auto next_sample = start;
+    auto next_progress = start;
+    while (steady_clock::now() < finish) {
+      wait_step(std::min({next_sample, next_progress, finish}));
+      check_trouble();
+      const auto now = steady_clock::now();
+      if (now >= next_sample) {
+        on_sample(sim_time_s());
+        // What a slow disk has missed is missed, not made up for.
+        next_sample += plan_.metrics_period * ((now - next_sample) / plan_.metrics_period + 1);
+      }
+      if (now >= next_progress) {
+        check_heartbeats();
+        progress.show(now - start, progress_text());
+        next_progress = now + kProgressPeriod;
+      }
+    }
+    progress.finish();
+    end_.flown_s = std::chrono::duration<double>{plan_.duration}.count();
+  });
+  stop_all();
+}
+
+void LiveRun::start_world() {
+  const auto log = open_service_log(settings_.logs / "world.log");
+  world_ = std::make_unique<Service>(
+      loop_, "world", service_specification("cuscus-world", kWorldService, log.get()), [] {});
+  std::vector<GivenDescriptor> given{
+      {Descriptors::KIND_CLOCK_PAGE, 0, memories_.clock()},
+      {Descriptors::KIND_FLEET_MEMORY, 0, memories_.fleet()},
+      {Descriptors::KIND_MOTION_CAPTURE_MEMORY, 0, memories_.motion_capture()}};
+  for (const std::uint32_t node : vehicles_of(plan_)) {
+    given.push_back({Descriptors::KIND_SENSOR_MEMORY, node, memories_.sensors(node)});
+    given.push_back({Descriptors::KIND_ACTUATOR_MEMORY, node, memories_.actuators(node)});
+  }
+  proto::Configure configure;
+  *configure.mutable_world() = plan_.world;
+  world_->component().configure(given, configure);
+  await("the world to be ready", kReadyLimit, [&] { return world_->component().is_ready(); });
+  memories_.world_has_mapped();
+}
+
+void LiveRun::build_nodes() {
+  auto ring = netlink::SendStampRing::create();
+  if (auto* const made = std::get_if<netlink::SendStampRing>(&ring)) {
+    send_stamps_.emplace(std::move(*made));
+    send_stamps_text_ = "tc-bpf";
+  } else {
+    send_stamps_text_ = std::get<netlink::NotAvailable>(ring).reason;
+    spdlog::warn("send stamps are not available ({}): frames enter the air when they are read",
+                 send_stamps_text_);
+  }
+  std::vector<node::HostEntry> hosts;
+  fleet_ = std::make_unique<node::Fleet>(
+      networks_of(plan_), node::FleetOptions{.init_path = settings_.programs / "cuscus-init",
+                                             .static_neighbours = plan_.static_neighbours,
+                                             .extra_hosts = std::move(hosts),
+                                             .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
+                                             .on_step = [this](std::string_view) {
+                                               loop_.poll();
+                                               check_trouble();
+                                             }});
+  if (on_nodes_built_) {
+    on_nodes_built_();
+  }
+}
+
+void LiveRun::start_netsim() {
+  const auto log = open_service_log(settings_.logs / "netsim.log");
+  auto specification = service_specification("cuscus-netsim", kNetsimService, log.get());
+  specification.network_namespace_fd = fleet_->fabric().network_namespace().fd();
+  netsim_ = std::make_unique<Service>(loop_, "netsim", std::move(specification), [] {});
+  std::vector<GivenDescriptor> given{{Descriptors::KIND_CLOCK_PAGE, 0, memories_.clock()},
+                                     {Descriptors::KIND_FLEET_MEMORY, 0, memories_.fleet()},
+                                     {Descriptors::KIND_RADIO_MEMORY, 0, memories_.radio()}};
+  if (send_stamps_) {
+    given.push_back({Descriptors::KIND_SEND_STAMP_RING, 0, send_stamps_->fd()});
+  }
+  if (settings_.frame_log) {
+    given.push_back({Descriptors::KIND_FRAME_LOG, 0, settings_.frame_log.get()});
+  }
+  for (const auto& node : fleet_->nodes()) {
+    given.push_back({Descriptors::KIND_TAP, node.network().index, node.tap_fd()});
+  }
+  proto::Configure configure;
+  *configure.mutable_radio() = plan_.radio;
+  netsim_->component().configure(given, configure);
+  await("netsim to be ready", kReadyLimit, [&] { return netsim_->component().is_ready(); });
+  memories_.netsim_has_mapped();
+}
+
+void LiveRun::start_programs() {
+  crew_ = std::make_unique<NodeCrew>(
+      loop_, *fleet_,
+      NodeCrew::Surroundings{.plan = plan_,
+                             .memories = memories_,
+                             .rights = settings_.rights,
+                             .programs = settings_.programs,
+                             .logs = settings_.logs,
+                             .run_id = settings_.run_id,
+                             .page_listener = settings_.page_listener.get()},
+      [] {});
+  crew_->launch_own();
+  await("the agents to be ready", kReadyLimit, [&] { return crew_->own_are_ready(); });
+  settings_.page_listener.reset();
+}
+
+void LiveRun::start_clock() {
+  crew_->set_clock([this] { return sim_time_s(); });
+  start_monotonic_ns_ = posix::monotonic_now_ns() + kStartLead_ns;
+  memories_.start(start_monotonic_ns_);
+  world_->component().start(start_monotonic_ns_);
+  netsim_->component().start(start_monotonic_ns_);
+  crew_->start(start_monotonic_ns_);
+  const auto start = steady_clock::time_point{std::chrono::nanoseconds{start_monotonic_ns_}};
+  while (steady_clock::now() < start) {
+    wait_step(start);
+    check_trouble();
+  }
+  crew_->launch_commands();
+}
+
+void LiveRun::stop_all() {
+  const std::string reason =
+      end_.kind == FlightEnd::Kind::kCompleted ? "the flight is over" : "the run has ended early";
+  if (crew_) {
+    crew_->stop(reason);
+    const auto ended = [&] { return crew_->all_have_ended(); };
+    if (!settle(kStopLimit, ended)) {
+      crew_->terminate();
+      if (!settle(kTerminateLimit, ended)) {
+        crew_->kill();
+        settle(kKillLimit, ended);
+      }
+    }
+  }
+  for (Service* const service : {netsim_.get(), world_.get()}) {
+    if (service != nullptr) {
+      service->component().stop(reason);
+    }
+  }
+  settle(kServiceStopLimit,
+         [&] { return (!netsim_ || netsim_->status()) && (!world_ || world_->status()); });
+}
+
+void LiveRun::watch_signals() {
+  signals_.async_wait([this](const boost::system::error_code& error, int number) {
+    if (error) {
+      return;
+    }
+    if (signal_number_ == 0) {
+      signal_number_ = number;
+    }
+    ++signals_seen_;
+    watch_signals();
+  });
+}
+
+void LiveRun::check_trouble() const {
+  if (signal_number_ != 0) {
+    throw RunInterrupted{};
+  }
+  for (const Service* const service : {world_.get(), netsim_.get()}) {
+    if (service != nullptr) {
+      if (const auto trouble = service->trouble(); !trouble.empty()) {
+        throw RunFailed{trouble};
+      }
+    }
+  }
+  if (crew_ && !crew_->trouble().empty()) {
+    throw RunFailed{crew_->trouble()};
+  }
+}
+
+void LiveRun::check_heartbeats() const {
+  const auto now = steady_clock::now();
+  for (const Service* const service : {world_.get(), netsim_.get()}) {
+    const auto silent =
+        std::chrono::duration_cast<milliseconds>(now - service->component().last_heard());
+    if (silent > kHeartbeatLimit && sim_time_s() > 5.0) {
+      throw RunFailed{fmt::format("{} hangs: no heartbeat for {} ms", service->component().name(),
+                                  silent.count())};
+    }
+  }
+}
+
+void LiveRun::await(const std::string& what, milliseconds limit,
+                    const std::function<bool()>& done) {
+  const auto deadline = steady_clock::now() + limit;
+  while (!done()) {
+    check_trouble();
+    if (steady_clock::now() >= deadline) {
+      throw RunFailed{fmt::format("waited {} s in vain for {}", limit.count() / 1000, what)};
+    }
+    wait_step(std::min(deadline, steady_clock::now() + milliseconds{100}));
+  }
+}
+
+bool LiveRun::settle(milliseconds limit, const std::function<bool()>& done) {
+  const auto deadline = steady_clock::now() + limit;
+  while (!done() && steady_clock::now() < deadline && signals_seen_ < 2) {
+    wait_step(deadline);
+  }
+  return done();
+}
+
+void LiveRun::wait_step(steady_clock::time_point deadline) {
+  loop_.restart();
+  loop_.run_one_until(deadline);
+  loop_.poll();  // also after the deadline, such as when this process was stopped for a while
+}
+
+double LiveRun::sim_time_s() const {
+  return start_monotonic_ns_ == 0
+             ? 0.0
+             : std::max(0.0, static_cast<double>(posix::monotonic_now_ns() - start_monotonic_ns_) *
+                                 1e-9);
+}
+
+std::string LiveRun::progress_text() const {
+  std::size_t flying = 0;
+  std::size_t agents = 0;
+  for (const auto& node : plan_.nodes) {
+    if (node.agent) {
+      ++agents;
+      flying += crew_->state_of(node.index) == "flying" ? 1U : 0U;
+    }
+  }
+  std::string text = fmt::format("{}/{} flying", flying, agents);
+  if (const auto timing = memories_.radio_reader()->timing()) {
+    text += fmt::format(", {} receptions, late p99 {:.3f} ms", timing->releases,
+                        static_cast<double>(timing->release_lateness_p99_ns) * 1e-6);
+  }
+  return text;
+}
+
+posix::ChildSpecification LiveRun::service_specification(const char* program, std::uint32_t service,
+                                                         int output_fd) const {
+  const uid_t uid = settings_.rights == node::Rights::kRoot ? node::service_uid(service) : 0;
+  return {.arguments = {settings_.programs / program},
+          .environment = {"PATH=/usr/bin:/bin"},
+          .working_directory = "/",
+          .output_fd = output_fd,
+          .identity = posix::ChildIdentity{.uid = uid, .gid = uid},
+          .realtime = plan_.realtime,
+          .open_files = 65'536};
+}
+
+std::vector<std::uint64_t> LiveRun::tap_drops() const {
+  std::vector<std::uint64_t> drops;
+  if (fleet_) {
+    for (const auto& node : fleet_->nodes()) {
+      try {
+        drops.push_back(node.tap_counters(fleet_->fabric()).send_drops);
+      } catch (const std::exception&) {
+        drops.push_back(0);  // its program has deleted the interface: nothing can be lost there
+      }
+    }
+  }
+  return drops;
+}
+
+std::vector<pid_t> LiveRun::init_pids() const {
+  std::vector<pid_t> pids;
+  if (fleet_) {
+    for (const auto& node : fleet_->nodes()) {
+      pids.push_back(node.init_pid());
+    }
+  }
+  return pids;
+}
+
+}  // namespace cuscus::orchestrator

@@ -1,0 +1,123 @@
+// cuscus: flies a fleet and its radio network from a scenario file.
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "common/log/log.h"
+#include "common/scenario/scenario_error.h"
+#include "orchestrator/app/commands.h"
+#include "orchestrator/app/exit_code.h"
+
+namespace {
+
+namespace orchestrator = cuscus::orchestrator;
+
+constexpr auto kFooter =
+    "Exit codes: 0 done, 1 failed, 2 wrong usage or scenario, 3 the run is INVALID,\n"
+    "128+n ended by signal n.";
+
+void add_scenario_options(CLI::App& command, orchestrator::ScenarioArguments& arguments) {
+  command.add_option("SCENARIO", arguments.file, "scenario file (JSON)")->required();
+  command.add_option("--duration", arguments.duration, "such as 60s");
+  command.add_option("--seed", arguments.seed, "of all random numbers");
+  command.add_option("--clock", arguments.clock, "real");
+  command
+      .add_option("--set", arguments.set,
+                  "PATH=VALUE changes one key, such as radio.data_rate=\"12 Mb/s\"")
+      ->take_all()
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+/// Options and what to do with them; declared together so that they live as long as the parser.
+struct CommandLine {
+  CLI::App app{"Flies a fleet of UAVs and their radio network together on one machine.", "cuscus"};
+  orchestrator::RunArguments run;
+  orchestrator::ScenarioArguments check;
+  bool check_json{false};
+  bool schema{false};
+  bool ps_json{false};
+  std::string run_id;
+  std::string node;
+  std::vector<std::string> command;
+  std::size_t doctor_nodes{11};
+
+  CommandLine() {
+    app.footer(kFooter);
+    app.require_subcommand(1);
+    auto* const run_command = app.add_subcommand("run", "fly a scenario");
+    add_scenario_options(*run_command, run.scenario);
+    run_command->add_option("--out", run.out, "folder for the results (default runs/<run id>)");
+    run_command->add_flag("--no-page", run.no_page, "do not serve the page");
+    auto* const check_command =
+        app.add_subcommand("check", "check a scenario and print the plan; creates nothing");
+    add_scenario_options(*check_command, check);
+    check_command->add_flag("--json", check_json, "print the plan as JSON");
+    app.add_subcommand("schema", "print the JSON schema of scenarios");
+    auto* const ps_command = app.add_subcommand("ps", "list the runs of this machine");
+    ps_command->add_flag("--json", ps_json, "as JSON, with every node");
+    auto* const exec_command = app.add_subcommand("exec", "run a command inside a node");
+    exec_command->add_option("--run", run_id, "run id, when several are alive");
+    exec_command->add_option("NODE", node, "such as uav3")->required();
+    exec_command->add_option("COMMAND", command, "after --")->required();
+    exec_command->positionals_at_end();
+    auto* const stop_command = app.add_subcommand("stop", "end a run; its results are kept");
+    stop_command->add_option("RUN", run_id, "run id, when several are alive");
+    app.add_subcommand("clean", "remove what killed runs have left behind");
+    auto* const doctor_command =
+        app.add_subcommand("doctor", "what this machine can and cannot do");
+    doctor_command->add_option("--nodes", doctor_nodes, "nodes to be flown");
+  }
+
+  int dispatch() {
+    if (app.got_subcommand("run")) {
+      return orchestrator::run_command(run);
+    }
+    if (app.got_subcommand("check")) {
+      return orchestrator::check_command(check, check_json);
+    }
+    if (app.got_subcommand("schema")) {
+      return orchestrator::schema_command();
+    }
+    if (app.got_subcommand("ps")) {
+      return orchestrator::ps_command(ps_json);
+    }
+    if (app.got_subcommand("exec")) {
+      return orchestrator::exec_command(run_id, node, command);
+    }
+    if (app.got_subcommand("stop")) {
+      return orchestrator::stop_command(run_id);
+    }
+    if (app.got_subcommand("clean")) {
+      return orchestrator::clean_command();
+    }
+    return orchestrator::doctor_command(doctor_nodes);
+  }
+};
+
+}  // namespace
+
+int main(int argc, char* argv[]) try {
+  cuscus::log::start("cuscus");
+  CommandLine line;
+  try {
+    line.app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = line.app.exit(error);
+    return code == 0 ? orchestrator::kExitDone : orchestrator::kExitUsage;
+  }
+  return line.dispatch();
+} catch (const cuscus::scenario::ScenarioError& error) {
+  fmt::print(stderr, "cuscus: {}\n", error.what());
+  return orchestrator::kExitUsage;
+} catch (const orchestrator::UsageError& error) {
+  fmt::print(stderr, "cuscus: {}\n", error.what());
+  return orchestrator::kExitUsage;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "cuscus: {}\n", error.what());
+  return orchestrator::kExitFailed;
+}

@@ -1,0 +1,149 @@
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "common/posix/check.h"
+#include "orchestrator/app/commands.h"
+#include "orchestrator/app/exit_code.h"
+#include "orchestrator/app/findings.h"
+#include "orchestrator/app/live_run.h"
+#include "orchestrator/app/ownership.h"
+#include "orchestrator/app/preflight.h"
+#include "orchestrator/app/run_registry.h"
+#include "orchestrator/app/sampler.h"
+#include "orchestrator/plan/plan.h"
+#include "orchestrator/results/run_directory.h"
+
+namespace cuscus::orchestrator {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::system_clock;
+
+RunDirectory create_run_directory(const RunArguments& arguments, const std::string& run_id) {
+  try {
+    return RunDirectory::create(arguments.out.value_or(fs::path{"runs"} / run_id));
+  } catch (const std::system_error& error) {
+    throw UsageError{error.what()};
+  }
+}
+
+RegisteredRun registered(const Plan& plan, const std::string& run_id, const fs::path& scenario,
+                         const fs::path& results, const std::vector<pid_t>& init_pids) {
+  RegisteredRun run{.run_id = run_id,
+                    .pid = ::getpid(),
+                    .scenario = fs::absolute(scenario).native(),
+                    .results = results.native(),
+                    .started_unix_s = system_clock::to_time_t(system_clock::now()),
+                    .nodes = {}};
+  for (std::size_t i = 0; i < init_pids.size(); ++i) {
+    run.nodes.push_back(
+        {.name = plan.nodes[i].name, .address = plan.nodes[i].ip, .init_pid = init_pids[i]});
+  }
+  return run;
+}
+
+int exit_code_of(const FlightEnd& end, Verdict verdict) {
+  switch (end.kind) {
+    case FlightEnd::Kind::kInterrupted:
+      return kExitSignalBase + end.signal_number;
+    case FlightEnd::Kind::kFailed:
+      return kExitFailed;
+    case FlightEnd::Kind::kCompleted:
+      break;
+  }
+  return verdict == Verdict::kInvalid ? kExitInvalid : kExitDone;
+}
+
+void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& fidelity,
+               const fs::path& results) {
+  if (end.kind == FlightEnd::Kind::kFailed) {
+    fmt::print(stderr, "cuscus: the run failed after {:.1f} s: {}\n", end.flown_s, end.reason);
+  } else if (end.kind == FlightEnd::Kind::kInterrupted) {
+    fmt::print(stderr, "cuscus: interrupted by {} after {:.1f} s\n",
+               ::sigdescr_np(end.signal_number), end.flown_s);
+  }
+  if (outcome.formation_error) {
+    fmt::print(
+        "formation error: median {:.3f} m, 95 % below {:.3f} m (second half of the flight)\n",
+        outcome.formation_error->p50_m, outcome.formation_error->p95_m);
+  }
+  fmt::print("results {}\n{}\n", results.native(), verdict_line(fidelity));
+}
+
+}  // namespace
+
+int run_command(const RunArguments& arguments) {
+  const scenario::Scenario scenario = load(arguments.scenario);
+  const Plan plan = make_plan(scenario);
+  for (const auto& warning : plan.capacity.warnings) {
+    spdlog::warn("{}", warning);
+  }
+
+  const node::Rights rights = acquire_run_rights();
+  check_tun();
+  const fs::path programs = check_own_programs();
+  check_open_files(plan);
+  posix::UniqueFd page_listener;
+  if (plan.page_port && !arguments.no_page) {
+    page_listener = listen_for_page(*plan.page_port);
+  }
+  const RunRegistry registry{RunRegistry::default_folder()};
+  for (const auto& dead : registry.sweep()) {
+    spdlog::info("removed what run {} had left behind", dead);
+  }
+  const std::string run_id =
+      make_run_id(plan.scenario_name, system_clock::now(), std::random_device{}());
+  const RunDirectory directory = create_run_directory(arguments, run_id);
+  directory.write_file(std::string{kResolvedScenarioFile},
+                       resolved_scenario(scenario).dump(2) + "\n");
+  const auto entry =
+      registry.enter(registered(plan, run_id, arguments.scenario.file, directory.path(), {}));
+
+  const bool page = static_cast<bool>(page_listener);
+  fmt::print(stderr, "run {}: {} nodes for {:.0f} s{}\n", run_id, plan.nodes.size(),
+             to_seconds(plan.duration),
+             page ? fmt::format(", page http://127.0.0.1:{}", *plan.page_port) : "");
+  RunFacts facts{.run_id = run_id, .started_utc = utc_text(system_clock::now())};
+  const std::int64_t suspended_before_ns = suspended_ns();
+  MetricsWriter metrics{directory.create_file(std::string{kMetricsFile})};
+  LiveRun run{plan,
+              {.run_id = run_id,
+               .rights = rights,
+               .programs = programs,
+               .logs = directory.path() / kLogFolder,
+               .page_listener = std::move(page_listener),
+               .frame_log = plan.record_frames ? directory.create_file(std::string{kFrameLogFile})
+                                               : posix::UniqueFd{}}};
+  run.on_nodes_built([&] {
+    entry.publish(
+        registered(plan, run_id, arguments.scenario.file, directory.path(), run.init_pids()));
+  });
+  Sampler sampler{plan, run, metrics};
+  if (run.set_up()) {
+    run.fly([&](double sim_time_s) {
+      facts.note_supervision();
+      sampler.sample(sim_time_s);
+    });
+  }
+
+  facts.suspended = std::chrono::nanoseconds{suspended_ns() - suspended_before_ns};
+  const FidelityInputs inputs = fidelity_inputs(plan, run, facts);
+  const Fidelity fidelity = judge(inputs);
+  RunOutcome outcome = run_outcome(plan, run, sampler, facts);
+  outcome.exit_code = exit_code_of(run.end(), fidelity.verdict);
+  directory.write_file(std::string{kFidelityFile}, to_json(fidelity, inputs).dump(2) + "\n");
+  directory.write_file(std::string{kSummaryFile}, to_json(outcome, fidelity).dump(2) + "\n");
+  give_to_caller(directory.path());
+  print_end(run.end(), outcome, fidelity, directory.path());
+  return outcome.exit_code;
+}
+
+}  // namespace cuscus::orchestrator

@@ -1,0 +1,43 @@
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "orchestrator/app/commands.h"
+#include "orchestrator/app/exit_code.h"
+#include "orchestrator/plan/plan.h"
+
+namespace cuscus::orchestrator {
+
+scenario::Scenario load(const ScenarioArguments& arguments) {
+  std::vector<scenario::Override> overrides;
+  const auto add = [&](const char* key, const std::optional<std::string>& value) {
+    if (value) {
+      overrides.push_back(
+          {.option = fmt::format("--{} {}", key, *value), .path = key, .value = *value});
+    }
+  };
+  add("duration", arguments.duration);
+  add("seed", arguments.seed);
+  add("clock", arguments.clock);
+  for (const auto& text : arguments.set) {
+    overrides.push_back(scenario::parse_override(text));
+  }
+  return scenario::load_scenario(arguments.file, overrides);
+}
+
+int check_command(const ScenarioArguments& arguments, bool json) {
+  const Plan plan = make_plan(load(arguments));
+  if (json) {
+    fmt::print("{}\n", to_json(plan).dump(2));
+  } else {
+    fmt::print("{}", to_text(plan));
+  }
+  return kExitDone;
+}
+
+int schema_command() {
+  fmt::print("{}", scenario::scenario_schema());
+  return kExitDone;
+}
+
+}  // namespace cuscus::orchestrator

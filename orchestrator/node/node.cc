@@ -1,0 +1,182 @@
+#include "orchestrator/node/node.h"
+
+#include <poll.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "orchestrator/netlink/offloads.h"
+#include "orchestrator/node/node_identity.h"
+
+namespace cuscus::node {
+namespace {
+
+constexpr std::uint64_t kNodeNamespaces =
+    CLONE_NEWNET | CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWUTS | CLONE_NEWIPC;
+constexpr std::uint32_t kAllPrograms = 0xffffffff;  // Signal::program, control.proto
+
+posix::ChildProcess start_init(const NodeNetwork& network, const InitProgram& program,
+                               int control_fd) {
+  std::vector<std::string> arguments{program.path, network.name};
+  if (network.ipv6) {
+    arguments.emplace_back("--ipv6");
+  }
+  return posix::ChildProcess::spawn({.arguments = std::move(arguments),
+                                     .environment = {"PATH=/usr/local/bin:/usr/bin:/bin"},
+                                     .working_directory = "/",
+                                     .input_fd = program.hosts_fd,
+                                     .output_fd = program.output_fd,
+                                     .control_fd = control_fd,
+                                     .namespaces = kNodeNamespaces});
+}
+
+}  // namespace
+
+std::string default_init_path() {
+  return std::filesystem::read_symlink("/proc/self/exe").replace_filename("cuscus-init").string();
+}
+
+Node Node::start(NodeNetwork network, const InitProgram& program) {
+  if (network.index >= kMaximumNodes) {
+    throw std::invalid_argument{"node " + std::to_string(network.index) + ": there are at most " +
+                                std::to_string(kMaximumNodes) + " nodes"};
+  }
+  auto [own, init_end] = ipc::ControlSocket::pair();
+  return Node{std::move(network), program, std::move(own), std::move(init_end)};
+}
+
+Node::Node(NodeNetwork network, const InitProgram& program, ipc::ControlSocket own,
+           ipc::ControlSocket init_end)
+    : network_{std::move(network)},
+      control_{std::move(own)},
+      init_{start_init(network_, program, init_end.fd())} {
+  namespace_ = posix::NetworkNamespace::of_process(init_.pid());
+}
+
+void Node::await_ready(std::chrono::milliseconds limit) {
+  pollfd readable{.fd = control_.fd(), .events = POLLIN, .revents = 0};
+  int ready = -1;
+  while ((ready = ::poll(&readable, 1, static_cast<int>(limit.count()))) < 0 && errno == EINTR) {
+  }
+  if (ready <= 0) {
+    throw std::runtime_error{network_.name + ": its init was not ready in " +
+                             std::to_string(limit.count()) + " ms"};
+  }
+  try {
+    const auto received = control_.receive();
+    if (received.envelope.has_failure()) {
+      throw std::runtime_error{received.envelope.failure().text()};
+    }
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error{network_.name + ": " + error.what()};
+  }
+}
+
+std::string Node::link_name(const char* prefix) const {
+  return prefix + std::to_string(network_.index);
+}
+
+void Node::build_bridged(const Fabric& fabric, netlink::RouteSocket& fabric_routes) {
+  const std::string bridge = link_name("br");
+  const std::string tap = link_name("tap");
+  fabric_routes.create_bridge(bridge, network_.mtu_bytes);
+  const std::uint32_t bridge_index = fabric_routes.index_of(bridge);
+  tap_ = netlink::TapDevice::create_in(fabric.network_namespace(), tap);
+  fabric_routes.change_link(tap, {.mtu_bytes = network_.mtu_bytes,
+                                  .queue_frames = network_.queue_frames,
+                                  .master_index = bridge_index,
+                                  .up = true});
+  fabric_routes.create_veth({.name = link_name("veth"),
+                             .peer_name = kInterface,
+                             .peer_mac = network_.mac,
+                             .mtu_bytes = network_.mtu_bytes,
+                             .queue_frames = network_.queue_frames,
+                             .master_index = bridge_index},
+                            *namespace_);
+}
+
+void Node::build_links(const Fabric& fabric, netlink::RouteSocket& fabric_routes,
+                       const Surroundings& surroundings) {
+  try {
+    if (network_.attachment == Attachment::kBridge) {
+      build_bridged(fabric, fabric_routes);
+    }
+    namespace_->run([&] { configure_interface(surroundings); });
+  } catch (const std::exception& error) {
+    throw std::runtime_error{network_.name + ": " + error.what()};
+  }
+}
+
+/// Runs on a thread inside the node's network namespace.
+void Node::configure_interface(const Surroundings& surroundings) {
+  netlink::RouteSocket routes;
+  if (network_.attachment == Attachment::kDirect) {
+    tap_ = netlink::TapDevice::create(kInterface);
+    routes.change_link(kInterface, {.mac = network_.mac,
+                                    .mtu_bytes = network_.mtu_bytes,
+                                    .queue_frames = network_.queue_frames});
+  }
+  const std::uint32_t index = routes.index_of(kInterface);
+  netlink::disable_offloads(kInterface);
+  if (surroundings.send_stamps != nullptr) {
+    surroundings.send_stamps->attach(routes, index, network_.index);
+  }
+  routes.change_link(kInterface, {.up = true});
+  routes.add_address(index, network_.address);
+  // Programs that announce themselves to everybody, or to a group, have no default route to do so.
+  routes.add_link_route(index, {.address = {255, 255, 255, 255}, .length = 32});
+  routes.add_link_route(index, {.address = {224, 0, 0, 0}, .length = 4});
+  std::vector<netlink::Neighbour> others;
+  std::ranges::copy_if(surroundings.neighbours, std::back_inserter(others),
+                       [&](const netlink::Neighbour& neighbour) {
+                         return neighbour.address != network_.address.address;
+                       });
+  routes.add_neighbours(index, others);
+}
+
+netlink::LinkCounters Node::tap_counters(const Fabric& fabric) const {
+  return network_.attachment == Attachment::kBridge
+             ? netlink::RouteSocket::in(fabric.network_namespace()).counters_of(link_name("tap"))
+             : netlink::RouteSocket::in(*namespace_).counters_of(kInterface);
+}
+
+void Node::launch(const proto::Launch& launch, int output_fd, int program_control_fd) {
+  proto::Envelope envelope;
+  *envelope.mutable_launch() = launch;
+  envelope.mutable_launch()->set_has_control_socket(program_control_fd >= 0);
+  std::vector<int> descriptors;
+  if (output_fd >= 0 || program_control_fd >= 0) {
+    // The control socket is the second: without an output of its own, the program gets ours.
+    descriptors.push_back(output_fd >= 0 ? output_fd : STDERR_FILENO);
+  }
+  if (program_control_fd >= 0) {
+    descriptors.push_back(program_control_fd);
+  }
+  control_.send(envelope, descriptors);
+}
+
+void Node::signal(std::uint32_t program, int signal_number) {
+  proto::Envelope envelope;
+  envelope.mutable_signal()->set_program(program);
+  envelope.mutable_signal()->set_signal_number(signal_number);
+  control_.send(envelope);
+}
+
+void Node::signal_all(int signal_number) { signal(kAllPrograms, signal_number); }
+
+std::optional<proto::Envelope> Node::try_receive() {
+  auto received = control_.try_receive();
+  return received ? std::optional{std::move(received->envelope)} : std::nullopt;
+}
+
+void Node::kill() { init_.send_signal(SIGKILL); }
+
+}  // namespace cuscus::node

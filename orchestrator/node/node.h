@@ -1,0 +1,117 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "common/ipc/control_socket.h"
+#include "common/posix/child_process.h"
+#include "common/posix/network_namespace.h"
+#include "common/posix/unique_fd.h"
+#include "orchestrator/netlink/addresses.h"
+#include "orchestrator/netlink/route_socket.h"
+#include "orchestrator/netlink/send_stamps.h"
+#include "orchestrator/netlink/tap_device.h"
+#include "orchestrator/node/fabric.h"
+#include "proto/control.pb.h"
+
+namespace cuscus::node {
+
+/// How a node's wlan0 is connected to netsim.
+enum class Attachment {
+  kBridge,  ///< Fabric: TAP - bridge - veth; node: wlan0 is the other end. Others can join.
+  kDirect,  ///< The TAP itself is wlan0: half the delay, two thirds of the CPU.
+};
+
+/// The interface that a node's programs use.
+inline constexpr const char* kInterface = "wlan0";
+
+/// One node's place in the network.
+struct NodeNetwork {
+  std::uint32_t index{};  ///< 0 to kMaximumNodes - 1; names the links in the fabric.
+  std::string name;       ///< Host name, such as "uav3".
+  netlink::MacAddress mac{};
+  netlink::Ipv4Prefix address{};
+  std::uint32_t mtu_bytes{1500};
+  std::uint32_t queue_frames{
+      1000};  ///< txqueuelen: beyond it the TAP drops what netsim is late for.
+  Attachment attachment{Attachment::kBridge};
+  bool ipv6{false};  ///< Off: no frame leaves that nobody sent.
+};
+
+/// What all inits of a run are started with.
+struct InitProgram {
+  std::string path;   ///< cuscus-init.
+  int hosts_fd{-1};   ///< A file that has the node's /etc/hosts; -1: they keep the host's.
+  int output_fd{-1};  ///< Takes what inits have to complain about; -1: the caller's own.
+};
+
+/// What nodes have in common besides the fabric.
+struct Surroundings {
+  std::span<const netlink::Neighbour> neighbours{};  ///< Permanent ones; empty: nodes use ARP.
+  const netlink::SendStampRing* send_stamps{};       ///< Null: no stamps.
+};
+
+/// cuscus-init, beside the running executable.
+[[nodiscard]] std::string default_init_path();
+
+/// A node: a set of namespaces with an init process, and wlan0 between it and netsim. All of it
+/// goes with this object, or with the process that made it.
+///
+/// Its three steps are apart so that a fleet's inits can start side by
+/// side; Fleet does all of them. Start it on a thread that lives as long as the process (see
+/// ChildProcess).
+class Node {
+ public:
+  /// Starts the node's init. It is not ready yet.
+  [[nodiscard]] static Node start(NodeNetwork network, const InitProgram& program);
+
+  /// Waits until the init has prepared its namespaces.
+  /// @throws std::runtime_error naming the node, with the init's reason, or after `limit`.
+  void await_ready(std::chrono::milliseconds limit);
+
+  /// Builds wlan0 and what connects it. Once, after await_ready(). `fabric_routes` is of `fabric`.
+  void build_links(const Fabric& fabric, netlink::RouteSocket& fabric_routes,
+                   const Surroundings& surroundings);
+
+  [[nodiscard]] const NodeNetwork& network() const noexcept { return network_; }
+  [[nodiscard]] pid_t init_pid() const noexcept { return init_.pid(); }
+  /// For poll(): readable once the node's init, hence the node, is dead.
+  [[nodiscard]] int init_pidfd() const noexcept { return init_.pidfd(); }
+  [[nodiscard]] const posix::NetworkNamespace& network_namespace() const { return *namespace_; }
+  /// Where netsim reads and writes this node's frames; valid after build_links().
+  [[nodiscard]] int tap_fd() const { return tap_->fd(); }
+  /// What wlan0 and, in the fabric, the TAP have counted and dropped.
+  [[nodiscard]] netlink::LinkCounters tap_counters(const Fabric& fabric) const;
+
+  /// For poll(): readable when try_receive() has something.
+  [[nodiscard]] int control_fd() const noexcept { return control_.fd(); }
+  /// Asks for a program; Launched or Exited will answer. Descriptors as in control.proto; -1: none.
+  void launch(const proto::Launch& launch, int output_fd = -1, int program_control_fd = -1);
+  /// Signals a program and its process group.
+  void signal(std::uint32_t program, int signal_number);
+  /// Signals everything in the node but its init.
+  void signal_all(int signal_number);
+  /// The next Launched or Exited, if one is there. @throws ipc::PeerError when the init is dead.
+  [[nodiscard]] std::optional<proto::Envelope> try_receive();
+
+  /// Kills everything in the node, without waiting for it. The destructor waits.
+  void kill();
+
+ private:
+  Node(NodeNetwork network, const InitProgram& program, ipc::ControlSocket own,
+       ipc::ControlSocket init_end);
+  void build_bridged(const Fabric& fabric, netlink::RouteSocket& fabric_routes);
+  void configure_interface(const Surroundings& surroundings);
+  [[nodiscard]] std::string link_name(const char* prefix) const;
+
+  NodeNetwork network_;
+  ipc::ControlSocket control_;
+  std::optional<netlink::TapDevice> tap_;
+  posix::ChildProcess init_;  // dies before the TAP goes, so that nobody sees wlan0 vanish
+  std::optional<posix::NetworkNamespace> namespace_;
+};
+
+}  // namespace cuscus::node

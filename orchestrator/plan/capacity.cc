@@ -1,0 +1,105 @@
+#include "orchestrator/plan/capacity.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+
+namespace cuscus::orchestrator {
+namespace {
+
+using scenario::Attach;
+using scenario::NeighbourSource;
+
+// Processor time, measured. A copy through bridge and veth costs about twice a direct one; a
+// spinning MAC thread sleeps except for the last 150 us before an event.
+constexpr double kDirectCopy_s = 3e-6;
+constexpr double kBridgeCopy_s = 6e-6;
+constexpr double kFrame_s = 10e-6;
+constexpr double kWaiting_cores = 0.14;
+constexpr double kWorldStep_s = 0.6e-6;   // per UAV: RK4 with sensors
+constexpr double kControlLoop_s = 15e-6;  // per loop: wake, estimate, control, publish
+
+// Our datagrams with IP and UDP headers: proto/air.proto keeps a beacon below 100 B.
+constexpr std::uint32_t kBeacon_bytes = 80 + 28;
+constexpr std::uint32_t kTelemetry_bytes = 70 + 28;
+
+double seconds(scenario::Duration duration) { return to_seconds(duration); }
+
+/// DIFS and the mean of the first backoff, of 0 ... 15 slots.
+double contention_s(const scenario::Radio& radio) {
+  constexpr double kSifs_s = 10e-6;
+  constexpr double kMeanBackoff_slots = 7.5;
+  return kSifs_s + (2.0 + kMeanBackoff_slots) * seconds(radio.slot);
+}
+
+}  // namespace
+
+double airtime_s(std::uint32_t ip_bytes, std::uint32_t rate_kbps) {
+  const double psdu_bits = 8.0 * (24 + 8 + ip_bytes + 4);
+  const double rate_Mbps = rate_kbps / 1000.0;
+  const bool is_dsss =
+      rate_kbps == 1000 || rate_kbps == 2000 || rate_kbps == 5500 || rate_kbps == 11000;
+  if (is_dsss) {
+    return (192.0 + psdu_bits / rate_Mbps) * 1e-6;
+  }
+  const double symbols = std::ceil((16.0 + psdu_bits + 6.0) / (4.0 * rate_Mbps));
+  return (20.0 + 4.0 * symbols + 6.0) * 1e-6;
+}
+
+CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
+  const double others = scenario.node_count() - 1.0;
+  const scenario::Radio& radio = scenario.radio;
+  const double ack_s = 10e-6 + airtime_s(0, radio.basic_rates_kbps.front());
+  CapacityEstimate estimate;
+  double loops_per_s = 0.0;
+  double vehicles = 0.0;
+  for (const scenario::Group& group : scenario.fleet) {
+    vehicles += group.is_fixed() ? 0.0 : group.count;
+    if (!group.autopilot) {
+      continue;
+    }
+    loops_per_s += group.count / seconds(group.control_period);
+    if (group.neighbours.source == NeighbourSource::kBeacons) {
+      const double beacons_per_s = group.count / seconds(group.neighbours.beacon_period);
+      estimate.frames_per_s += beacons_per_s;
+      estimate.copies_per_s += beacons_per_s * others;
+      estimate.air_busy_fraction +=
+          beacons_per_s * (contention_s(radio) + airtime_s(kBeacon_bytes, radio.group_rate_kbps));
+    }
+    if (scenario.ground_station.enabled) {
+      const double reports_per_s = group.count / seconds(group.telemetry_period);
+      estimate.frames_per_s += reports_per_s;
+      estimate.copies_per_s += reports_per_s;
+      estimate.air_busy_fraction +=
+          reports_per_s *
+          (contention_s(radio) + ack_s + airtime_s(kTelemetry_bytes, radio.data_rate_kbps));
+    }
+  }
+  const double copy_s = scenario.network.attach == Attach::kDirect ? kDirectCopy_s : kBridgeCopy_s;
+  estimate.emulator_cores =
+      kWaiting_cores + estimate.frames_per_s * kFrame_s + estimate.copies_per_s * copy_s;
+  estimate.world_cores = vehicles * kWorldStep_s / seconds(scenario.world.step);
+  estimate.agent_cores = loops_per_s * kControlLoop_s;
+
+  constexpr double kFullAir = 0.7;  // contention makes delays grow well before 1
+  if (estimate.air_busy_fraction > kFullAir) {
+    estimate.warnings.push_back(fmt::format(
+        "beacons and telemetry would keep the air busy {:.0f} % of the time: expect long queues "
+        "and collisions; a longer beacon_period or a higher group_rate helps",
+        100.0 * estimate.air_busy_fraction));
+  }
+  if (estimate.emulator_cores > 1.0) {
+    estimate.warnings.push_back(fmt::format(
+        "the emulator needs about {:.1f} cores{}: expect frames to be released late unless the "
+        "host is fast",
+        estimate.emulator_cores,
+        scenario.network.attach == Attach::kBridge ? " (\"attach\": \"direct\" halves it)" : ""));
+  }
+  if (estimate.world_cores > 1.0) {
+    estimate.warnings.push_back(fmt::format(
+        "the world needs about {:.1f} cores: a longer world.step helps", estimate.world_cores));
+  }
+  return estimate;
+}
+
+}  // namespace cuscus::orchestrator

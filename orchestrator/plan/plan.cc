@@ -1,0 +1,409 @@
+#include "orchestrator/plan/plan.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "common/scenario/names.h"
+#include "common/scenario/placeholders.h"
+#include "orchestrator/plan/capacity.h"
+
+namespace cuscus::orchestrator {
+namespace {
+
+using scenario::Group;
+using scenario::Scenario;
+
+// SCHED_FIFO priorities: who must not wait for whom. The emulator decides what the air does when,
+// the world decides where everybody is, agents react to both.
+constexpr std::int32_t kRadioPriority = 60;
+constexpr std::int32_t kWorldPriority = 50;
+constexpr std::int32_t kAgentPriority = 40;
+
+std::int32_t priority(const Scenario& scenario, std::int32_t wanted) {
+  return scenario.realtime ? wanted : 0;
+}
+
+/// Locally administered (bit 1 of the first octet), "cus" and the node's number from 1.
+std::array<std::uint8_t, 6> mac_of(std::uint32_t node) {
+  const std::uint32_t number = node + 1;
+  return {0x02,
+          0x63,
+          0x75,
+          0x73,
+          static_cast<std::uint8_t>(number >> 8U),
+          static_cast<std::uint8_t>(number)};
+}
+
+proto::Vector3 vector_of(const scenario::Position_m& p_m) {
+  proto::Vector3 vector;
+  vector.set_x(p_m[0]);
+  vector.set_y(p_m[1]);
+  vector.set_z(p_m[2]);
+  return vector;
+}
+
+proto::MultirotorParameters parameters_of(const scenario::X4Vehicle& x4) {
+  proto::MultirotorParameters parameters;
+  const scenario::X4Vehicle original;
+  const bool changed = x4.mass_kg != original.mass_kg || x4.arm_m != original.arm_m ||
+                       x4.inertia_roll_kgm2 != original.inertia_roll_kgm2 ||
+                       x4.inertia_pitch_kgm2 != original.inertia_pitch_kgm2 ||
+                       x4.inertia_yaw_kgm2 != original.inertia_yaw_kgm2 ||
+                       x4.drag_vertical_Nspm != original.drag_vertical_Nspm ||
+                       x4.drag_lateral_Nspm != original.drag_lateral_Nspm ||
+                       x4.motor_timeout != original.motor_timeout;
+  parameters.set_source(std::string{"FL-AIR, simulator_x4.xml"} +
+                        (changed ? ", with changes from the scenario" : ""));
+  parameters.set_mass_kg(x4.mass_kg);
+  parameters.set_arm_m(x4.arm_m);
+  parameters.set_thrust_factor(scenario::kX4ThrustFactor_N);
+  parameters.set_torque_factor(scenario::kX4TorqueFactor_Nm);
+  parameters.set_drag_vertical(x4.drag_vertical_Nspm);
+  parameters.set_drag_lateral(x4.drag_lateral_Nspm);
+  parameters.set_inertia_roll_kgm2(x4.inertia_roll_kgm2);
+  parameters.set_inertia_pitch_kgm2(x4.inertia_pitch_kgm2);
+  parameters.set_inertia_yaw_kgm2(x4.inertia_yaw_kgm2);
+  parameters.set_motor_speed_per_command(scenario::kX4SpeedPerCommand);
+  parameters.set_motor_timeout_ns(x4.motor_timeout.count());
+  parameters.set_faithful(x4.faithful);
+  return parameters;
+}
+
+proto::CircleMission mission_of(const scenario::CircleMission& circle) {
+  proto::CircleMission mission;
+  *mission.mutable_p_wc_centre_m() =
+      vector_of({circle.centre_m[0], circle.centre_m[1], circle.altitude_m});
+  mission.set_radius_m(circle.radius_m);
+  mission.set_speed_mps(circle.speed_mps);
+  mission.set_spacing_gain(circle.spacing_gain);
+  return mission;
+}
+
+/// Builds the plan node by node.
+class Planner {
+ public:
+  explicit Planner(const Scenario& scenario) : scenario_{scenario} {}
+
+  Plan make() {
+    plan_run();
+    std::uint32_t first_node = 0;
+    for (const Group& group : scenario_.fleet) {
+      plan_group(group, first_node);
+      first_node += group.count;
+    }
+    if (scenario_.ground_station.enabled) {
+      plan_ground_station();
+    }
+    plan_hosts();
+    plan_world();
+    plan_radio();
+    plan_.capacity = estimate_capacity(scenario_);
+    return std::move(plan_);
+  }
+
+ private:
+  void plan_run() {
+    plan_.scenario_name = scenario_.name;
+    plan_.seed = scenario_.seed;
+    plan_.duration = scenario_.duration;
+    plan_.realtime = scenario_.realtime;
+    plan_.subnet = scenario_.network.subnet;
+    plan_.attach = scenario_.network.attach;
+    plan_.static_neighbours = scenario_.network.neighbours == scenario::AddressResolution::kStatic;
+    plan_.ipv6 = scenario_.network.ipv6;
+    plan_.mtu_bytes = scenario_.network.mtu_bytes;
+    plan_.record_frames = scenario_.record.frames;
+    plan_.metrics_period = scenario_.record.metrics_period;
+    if (scenario_.ground_station.enabled) {
+      plan_.page_port = scenario_.ground_station.page_port;
+    }
+  }
+
+  NodePlan node(std::string name, NodeRole role, const scenario::Position_m& p_WB_start_m) const {
+    NodePlan node;
+    node.index = static_cast<std::uint32_t>(plan_.nodes.size());
+    node.name = std::move(name);
+    node.role = role;
+    node.ip = address_of(node.index);
+    node.mac = mac_of(node.index);
+    node.interface = "wlan0";
+    node.tap = fmt::format("tap{}", node.index);
+    if (plan_.attach == scenario::Attach::kBridge) {
+      node.bridge = fmt::format("br{}", node.index);
+      node.veth = fmt::format("veth{}", node.index);
+    }
+    node.p_WB_start_m = p_WB_start_m;
+    return node;
+  }
+
+  void plan_group(const Group& group, std::uint32_t first_node) {
+    const auto positions = start_positions(group);
+    for (std::uint32_t member = 0; member < group.count; ++member) {
+      NodePlan uav = node(uav_name(group, member),
+                          group.is_fixed() ? NodeRole::kFixed : NodeRole::kUav, positions[member]);
+      if (group.autopilot) {
+        uav.agent = agent_of(group, member, first_node);
+        uav.sees_motion_capture =
+            group.neighbours.source == scenario::NeighbourSource::kMotionCapture;
+        plan_.motion_capture_memory = plan_.motion_capture_memory || uav.sees_motion_capture;
+        uav.programs.push_back({.kind = ProgramKind::kAgent,
+                                .arguments = {"cuscus-agent"},
+                                .environment = environment_of(uav),
+                                .capabilities = {},
+                                .on_exit = group.on_exit,
+                                .has_control_socket = true,
+                                .log_name = uav.name + "-agent.log"});
+      }
+      if (!group.command.empty()) {
+        uav.programs.push_back(command_of(group, member, uav));
+      }
+      plan_.nodes.push_back(std::move(uav));
+    }
+  }
+
+  proto::AgentConfiguration agent_of(const Group& group, std::uint32_t member,
+                                     std::uint32_t first_node) const {
+    proto::AgentConfiguration agent;
+    agent.set_node(first_node + member);
+    agent.set_name(uav_name(group, member));
+    agent.set_slot(member);
+    agent.set_fleet_size(group.count);
+    agent.set_seed(scenario_.seed);
+    agent.set_control_period_ns(group.control_period.count());
+    if (group.mission) {
+      *agent.mutable_circle() = mission_of(*group.mission);
+    }
+    agent.set_neighbours(group.neighbours.source == scenario::NeighbourSource::kBeacons
+                             ? proto::AgentConfiguration::NEIGHBOURS_BEACONS
+                             : proto::AgentConfiguration::NEIGHBOURS_MOTION_CAPTURE);
+    agent.set_beacon_period_ns(group.neighbours.beacon_period.count());
+    agent.set_beacon_port(group.neighbours.port);
+    agent.set_beacon_address(scenario::ipv4_text(scenario_.network.subnet.broadcast()));
+    agent.set_neighbour_timeout_ns(group.neighbours.timeout.count());
+    if (scenario_.ground_station.enabled) {
+      agent.set_telemetry_address(address_of(scenario_.uav_count()));
+      agent.set_telemetry_port(scenario_.ground_station.telemetry_port);
+      agent.set_telemetry_period_ns(group.telemetry_period.count());
+    }
+    if (const auto* x4 = std::get_if<scenario::X4Vehicle>(&group.vehicle)) {
+      *agent.mutable_multirotor() = parameters_of(*x4);
+    }
+    for (std::uint32_t slot = 0; slot < group.count; ++slot) {
+      agent.add_slot_nodes(first_node + slot);
+    }
+    agent.set_gravity_mps2(scenario_.world.gravity_mps2);
+    agent.set_realtime_priority(priority(scenario_, kAgentPriority));
+    return agent;
+  }
+
+  Program command_of(const Group& group, std::uint32_t member, const NodePlan& uav) const {
+    scenario::PlaceholderValues values;
+    values.index = std::to_string(member);
+    values.count = std::to_string(group.count);
+    values.name = uav.name;
+    values.group = group.name;
+    values.ip = uav.ip;
+    if (scenario_.ground_station.enabled) {
+      values.gcs_ip = address_of(scenario_.uav_count());
+    }
+    values.broadcast = scenario::ipv4_text(scenario_.network.subnet.broadcast());
+    values.scenario_dir = scenario_.folder.string();
+    values.ip_of = [this](const std::string& name) { return address_of_name(name); };
+
+    Program program;
+    program.kind = ProgramKind::kCommand;
+    for (const std::string& argument : group.command) {
+      program.arguments.push_back(expand(argument, values));
+    }
+    program.environment = environment_of(uav);
+    for (const auto& [name, text] : group.environment) {
+      const std::string prefix = name + '=';
+      std::erase_if(program.environment,
+                    [&prefix](const std::string& entry) { return entry.starts_with(prefix); });
+      program.environment.push_back(prefix + expand(text, values));
+    }
+    program.capabilities = group.capabilities;
+    program.on_exit = group.on_exit;
+    program.working_directory = scenario_.folder.string();
+    program.log_name = uav.name + "-command.log";
+    return program;
+  }
+
+  void plan_ground_station() {
+    NodePlan gcs = node(std::string{scenario::kGroundStationName}, NodeRole::kGroundStation,
+                        scenario_.ground_station.position_m);
+    gcs.programs.push_back({.kind = ProgramKind::kGroundStation,
+                            .arguments = {"cuscus-gcs"},
+                            .environment = environment_of(gcs),
+                            .capabilities = {},
+                            .on_exit = scenario::OnExit::kFail,
+                            .has_control_socket = true,
+                            .log_name = gcs.name + ".log"});
+    proto::GroundStationConfiguration configuration;
+    configuration.set_node(gcs.index);
+    configuration.set_telemetry_port(scenario_.ground_station.telemetry_port);
+    configuration.set_scenario_name(scenario_.name);
+    configuration.set_duration_ns(scenario_.duration.count());
+    plan_.nodes.push_back(std::move(gcs));
+    for (const NodePlan& node : plan_.nodes) {
+      proto::GroundStationNode& entry = *configuration.add_nodes();
+      entry.set_node(node.index);
+      entry.set_name(node.name);
+      entry.set_address(node.ip);
+      entry.set_is_vehicle(node.role == NodeRole::kUav);
+    }
+    for (const Group& group : scenario_.fleet) {
+      if (group.mission && !configuration.has_circle()) {
+        *configuration.mutable_circle() = mission_of(*group.mission);
+      }
+    }
+    plan_.ground_station = std::move(configuration);
+  }
+
+  void plan_hosts() {
+    if (scenario_.network.hosts) {
+      for (const NodePlan& node : plan_.nodes) {
+        plan_.hosts.push_back({.ip = node.ip, .name = node.name});
+      }
+    }
+  }
+
+  void plan_world() {
+    proto::WorldConfiguration& world = plan_.world;
+    world.set_seed(scenario_.seed);
+    world.set_step_ns(scenario_.world.step.count());
+    world.set_gravity_mps2(scenario_.world.gravity_mps2);
+    world.set_imu_period_ns(scenario_.world.imu_period.count());
+    world.set_gyro_noise_radps(scenario_.world.gyro_noise_radps);
+    world.set_accelerometer_noise_mps2(scenario_.world.accelerometer_noise_mps2);
+    world.set_motion_capture_period_ns(scenario_.world.motion_capture_period.count());
+    world.set_motion_capture_noise_m(scenario_.world.motion_capture_noise_m);
+    world.set_motion_capture_noise_rad(scenario_.world.motion_capture_noise_rad);
+    world.set_realtime_priority(priority(scenario_, kWorldPriority));
+    std::size_t next = 0;
+    for (const Group& group : scenario_.fleet) {
+      const auto* x4 = std::get_if<scenario::X4Vehicle>(&group.vehicle);
+      for (std::uint32_t member = 0; member < group.count; ++member) {
+        proto::WorldNode& node = add_world_node(plan_.nodes[next++]);
+        node.set_yaw_start_rad(group.start.heading_rad);
+        if (x4 != nullptr) {
+          *node.mutable_multirotor() = parameters_of(*x4);
+        }
+      }
+    }
+    if (next < plan_.nodes.size()) {
+      add_world_node(plan_.nodes[next]);
+    }
+  }
+
+  proto::WorldNode& add_world_node(const NodePlan& from) {
+    proto::WorldNode& node = *plan_.world.add_nodes();
+    node.set_node(from.index);
+    node.set_name(from.name);
+    *node.mutable_p_wb_start_m() = vector_of(from.p_WB_start_m);
+    return node;
+  }
+
+  void plan_radio() {
+    const scenario::Radio& from = scenario_.radio;
+    proto::RadioConfiguration& radio = plan_.radio;
+    radio.set_seed(scenario_.seed);
+    radio.set_standard(name_of(scenario::kRadioStandardNames, from.standard));
+    radio.set_data_rate_kbps(from.data_rate_kbps);
+    radio.set_group_rate_kbps(from.group_rate_kbps);
+    for (const std::uint32_t rate_kbps : from.basic_rates_kbps) {
+      radio.add_basic_rates_kbps(rate_kbps);
+    }
+    radio.set_carrier_hz(from.channel_frequency_hz);
+    radio.set_noise_figure_db(from.noise_figure.value);
+    radio.set_slot_ns(from.slot.count());
+    radio.set_retry_limit(from.retry_limit);
+    radio.set_queue_frames(from.queue_frames);
+    radio.set_queue_lifetime_ns(from.queue_lifetime.count());
+    radio.set_error_model(name_of(scenario::kErrorModelNames, from.error_model));
+    radio.set_cca_preamble_dbm(from.cca_preamble.value);
+    radio.set_cca_energy_dbm(from.cca_energy.value);
+    constexpr double kNone = -std::numeric_limits<double>::infinity();
+    const auto& detection = from.preamble_detection;
+    radio.set_detection_minimum_dbm(detection ? detection->minimum_power.value : kNone);
+    radio.set_detection_minimum_sinr_db(detection ? detection->minimum_sinr.value : kNone);
+    *radio.mutable_propagation() = propagation();
+    radio.set_realtime_priority(priority(scenario_, kRadioPriority));
+    radio.set_bridge(plan_.attach == scenario::Attach::kBridge);
+    for (const NodePlan& node : plan_.nodes) {
+      proto::RadioNode& entry = *radio.add_nodes();
+      entry.set_node(node.index);
+      entry.set_name(node.name);
+      entry.set_mac(std::string{node.mac.begin(), node.mac.end()});
+      entry.set_tx_power_dbm(from.tx_power.value);
+      entry.set_antenna_gain_db(from.antenna_gain.value);
+    }
+  }
+
+  proto::PropagationConfiguration propagation() const {
+    proto::PropagationConfiguration result;
+    const scenario::Propagation& from = scenario_.radio.propagation;
+    if (const auto* model = std::get_if<scenario::LogDistancePropagation>(&from)) {
+      result.set_model("log-distance");
+      result.set_exponent(model->exponent);
+      result.set_reference_loss_db(model->reference_loss ? model->reference_loss->value : 0.0);
+    } else if (const auto* paper = std::get_if<scenario::PaperPropagation>(&from)) {
+      result.set_model("paper-eq1");
+      result.set_alpha(paper->alpha);
+      result.set_chi_db2(paper->chi_dB2);
+    } else {
+      result.set_model("friis");
+    }
+    return result;
+  }
+
+  std::string address_of(std::uint32_t node) const {
+    return scenario::ipv4_text(scenario_.network.subnet.host(node));
+  }
+
+  std::optional<std::string> address_of_name(const std::string& name) const {
+    std::uint32_t node = 0;
+    for (const Group& group : scenario_.fleet) {
+      for (std::uint32_t member = 0; member < group.count; ++member, ++node) {
+        if (uav_name(group, member) == name) {
+          return address_of(node);
+        }
+      }
+    }
+    if (scenario_.ground_station.enabled && name == scenario::kGroundStationName) {
+      return address_of(node);
+    }
+    return std::nullopt;
+  }
+
+  std::vector<std::string> environment_of(const NodePlan& node) const {
+    std::vector<std::string> environment{
+        "PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin",
+        "LANG=C.UTF-8",
+        "CUSCUS_NODE=" + std::to_string(node.index),
+        "CUSCUS_NAME=" + node.name,
+        "CUSCUS_IP=" + node.ip,
+    };
+    if (scenario_.ground_station.enabled) {
+      environment.push_back("CUSCUS_GCS_IP=" + address_of(scenario_.uav_count()));
+    }
+    return environment;
+  }
+
+  const Scenario& scenario_;
+  Plan plan_;
+};
+
+}  // namespace
+
+Plan make_plan(const Scenario& scenario) { return Planner{scenario}.make(); }
+
+std::string mac_text(const std::array<std::uint8_t, 6>& mac) {
+  return fmt::format("{:02x}:{:02x}:{:02x}:{:02x}:{:02x}:{:02x}", mac[0], mac[1], mac[2], mac[3],
+                     mac[4], mac[5]);
+}
+
+}  // namespace cuscus::orchestrator

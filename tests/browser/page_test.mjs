@@ -1,0 +1,126 @@
+// node page_test.mjs <page_harness> <cuscus-gcs> <folder for screenshots>
+
+import assert from 'node:assert/strict';
+import { mkdir } from 'node:fs/promises';
+import { request } from 'node:http';
+import { join } from 'node:path';
+import { skipIfMissing, withPage } from './chromium.mjs';
+import { startHarness } from './harness.mjs';
+import { checkLivePage, read } from './page_checks.mjs';
+
+const DRONES = 10;
+const [harness, gcs, folder] = process.argv.slice(2);
+await skipIfMissing();
+await mkdir(folder, { recursive: true });
+
+/** One HTTP request, headers as given; resolves to {status, headers, body}. */
+function ask(url, path, { method = 'GET', headers = {} } = {}) {
+  return new Promise((resolve, reject) => {
+    const { hostname, port, host } = new URL(url);
+    const asked = request({ hostname, port, path, method, headers: { Host: host, ...headers } }, (response) => {
+      let body = '';
+      response.setEncoding('utf8');
+      response.on('data', (chunk) => { body += chunk; });
+      response.on('end', () => resolve({ status: response.statusCode, headers: response.headers, body }));
+    });
+    asked.on('upgrade', (response, socket) => {
+      socket.destroy();
+      resolve({ status: response.statusCode, headers: response.headers, body: '' });
+    });
+    asked.on('error', reject);
+    asked.end();
+  });
+}
+
+const upgrade = (origin) => ({
+  Connection: 'Upgrade',
+  Upgrade: 'websocket',
+  'Sec-WebSocket-Version': '13',
+  'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==',
+  ...(origin ? { Origin: origin } : {}),
+});
+
+async function checkGuards(url) {
+  const { port } = new URL(url);
+  const status = async (...request) => (await ask(url, ...request)).status;
+  assert.equal(await status('/', { headers: { Host: 'evil.example' } }), 421);
+  assert.equal(await status('/', { headers: { Host: `evil.example:${port}` } }), 421);
+  assert.equal(await status('/', { headers: { Host: `localhost:${port}` } }), 200);
+  assert.equal(await status('/ws', { headers: { ...upgrade('http://evil.example') } }), 403);
+  assert.equal(await status('/ws', { headers: { ...upgrade('null') } }), 403);
+  assert.equal(await status('/ws', { headers: { ...upgrade(url) } }), 101);
+  assert.equal(await status('/ws'), 426);
+  assert.equal(await status('/', { method: 'POST' }), 405);
+  assert.equal(await status('/../../etc/passwd'), 404);
+  assert.equal(await status('/%2e%2e/main.js'), 404);
+  assert.equal(await status('/none'), 404);
+  const page = await ask(url, '/', { method: 'HEAD' });
+  assert.equal(page.status, 200);
+  assert.equal(page.body, '');
+  assert.match(page.headers['content-security-policy'], /default-src 'self'/);
+  assert.equal(page.headers['x-content-type-options'], 'nosniff');
+}
+
+async function checkSnapshot(url) {
+  const { status, headers, body } = await ask(url, '/api/snapshot');
+  assert.equal(status, 200);
+  assert.equal(headers['content-type'], 'application/json');
+  assert.ok(!body.includes('<'), 'names are escaped');
+  const snapshot = JSON.parse(body);
+  assert.equal(snapshot.nodes.filter((node) => node.vehicle).length, DRONES);
+  assert.equal(snapshot.run.scenario, `Circle of ${DRONES} <quadrotors>`);
+  assert.ok(snapshot.run.telemetry.rejected > 0, 'garbage is counted');
+  assert.ok(snapshot.links.length > 0);
+  const levels = snapshot.links.map(([, , dbm]) => dbm);
+  assert.deepEqual(levels, [...levels].sort((a, b) => b - a), 'strongest first');
+}
+
+/** Zoom, layers, sources and selection, by mouse and by keys. */
+async function checkControls(page) {
+  await page.click('#show-telemetry');
+  await page.locator('#show-telemetry[aria-pressed="true"]').waitFor();
+  await page.waitForFunction((count) => Number(document.getElementById('plan').dataset.drones) === count, DRONES);
+  await page.keyboard.press('t');
+  await page.locator('#show-truth[aria-pressed="true"]').waitFor();
+  await page.keyboard.press('l');
+  await page.waitForFunction(() => document.getElementById('plan').dataset.links === '0');
+  await page.keyboard.press('l');
+  await page.waitForFunction(() => Number(document.getElementById('plan').dataset.links) > 0);
+  await page.click('#fleet tbody tr:nth-child(4) button');
+  await page.locator('#details h2', { hasText: 'uav3' }).waitFor();
+}
+
+const run = await startHarness(harness, gcs);
+try {
+  for (const colorScheme of ['light', 'dark']) {
+    await withPage({ url: run.url, colorScheme }, async (page, complaints) => {
+      const seen = await checkLivePage(page, DRONES);
+      assert.equal(seen.scenario, `Circle of ${DRONES} <quadrotors>`);
+      assert.equal(seen.lateness, 'good');
+      if (colorScheme === 'light') {
+        await checkSnapshot(run.url);
+        await checkGuards(run.url);
+      } else {
+        await checkControls(page);
+      }
+      await page.screenshot({ path: join(folder, `page-${colorScheme}.png`) });
+      assert.deepEqual(complaints, []);
+
+      if (colorScheme === 'dark') {
+        const report = await run.stop();
+        assert.equal(report.exit_code, 0);
+        assert.ok(report.stop_ms < 1000, `stopped in ${report.stop_ms} ms with a client connected`);
+        assert.ok(report.telemetry_received > 0 && report.telemetry_rejected > 0);
+        await page.locator('body[data-connection="ended"]').waitFor();
+        await page.locator('#banner', { hasText: 'The run has ended' }).waitFor();
+        const last = await read(page);
+        assert.equal(last.rows.length, DRONES);
+        assert.equal(last.drones, DRONES);
+        await page.screenshot({ path: join(folder, 'page-ended.png') });
+      }
+    });
+  }
+  console.log('the page holds');
+} finally {
+  run.abandon();
+}

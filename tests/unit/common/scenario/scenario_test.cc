@@ -1,0 +1,322 @@
+#include "common/scenario/scenario.h"
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <set>
+
+#include "common/scenario/placeholders.h"
+#include "common/scenario/programs.h"
+#include "common/scenario/scenario_error.h"
+
+namespace cuscus::scenario {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+const std::filesystem::path kFolder{CUSCUS_SCENARIO_FOLDER};
+
+Scenario parse(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return parse_scenario(text, "flight.json", "/scenarios", overrides);
+}
+
+std::vector<std::filesystem::path> shipped() {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator{kFolder}) {
+    if (entry.path().extension() == ".json" && entry.path().filename() != "scenario.schema.json") {
+      files.push_back(entry.path());
+    }
+  }
+  return files;
+}
+
+TEST_CASE("Two keys make a scenario, and the rest has the documented defaults") {
+  const Scenario scenario = parse(R"({"name": "t", "fleet": [{}]})");
+
+  CHECK(scenario.seed == 1);
+  CHECK(scenario.duration == 60s);
+  CHECK(scenario.radio.data_rate_kbps == 6000);
+  CHECK(scenario.radio.basic_rates_kbps == std::vector<std::uint32_t>{6000, 12000, 24000});
+  CHECK(scenario.radio.tx_power.value == 16.0);
+  CHECK(subnet_text(scenario.network.subnet) == "10.42.0.0/16");
+  CHECK(scenario.world.step == 1ms);
+  CHECK(scenario.fleet.at(0).neighbours.beacon_period == 50ms);
+  CHECK(scenario.fleet.at(0).neighbours.port == 47100);
+  CHECK(std::get<X4Vehicle>(scenario.fleet.at(0).vehicle).mass_kg == 1.2);
+  CHECK(scenario.fleet.at(0).autopilot);
+  CHECK_FALSE(scenario.fleet.at(0).mission);
+  CHECK(scenario.node_count() == 2);
+}
+
+TEST_CASE("The file's quantities arrive in SI units") {
+  const Scenario scenario =
+      parse(R"({"name": "t", "duration": "2 min",
+      "radio": {"slot": "9 us", "data_rate": "54 Mb/s", "tx_power": "-3.5 dBm",
+                "propagation": {"model": "log-distance", "exponent": 2.5,
+                                "reference_loss": "46.7 dB"}},
+      "world": {"imu": {"rate": "0.5 kHz"}, "motion_capture": {"attitude_noise": "180 deg"}},
+      "fleet": [{}]})",
+            {{.option = "x", .path = "world.motion_capture.attitude_noise", .value = "90 deg"}});
+
+  CHECK(scenario.duration == 120s);
+  CHECK(scenario.radio.slot == 9us);
+  CHECK(scenario.radio.data_rate_kbps == 54000);
+  CHECK(scenario.radio.tx_power.value == -3.5);
+  const auto& model = std::get<LogDistancePropagation>(scenario.radio.propagation);
+  CHECK(model.exponent == 2.5);
+  CHECK(model.reference_loss.value().value == 46.7);
+  CHECK(scenario.world.imu_period == 2ms);
+  CHECK(scenario.world.motion_capture_noise_rad == std::numbers::pi / 2);
+}
+
+TEST_CASE("The scenario written out in full is the same scenario") {
+  const std::string rich = R"({"name": "rich", "seed": 9223372036854775807, "clock": "real",
+      "radio": {"preamble_detection": "none", "basic_rates": ["24 Mb/s", "1 Mb/s"],
+                "propagation": {"model": "paper-eq1", "alpha": 22.5, "chi": "9 dB2"}},
+      "network": {"subnet": "192.168.7.0/24", "attach": "direct", "neighbours": "arp"},
+      "fleet": [
+        {"name": "a", "count": 3, "start": {"layout": "line", "direction": "33 deg",
+         "centre": ["-7.25 m", "1 km", "0 m"], "heading": "-90 deg"},
+         "vehicle": {"model": "x4", "mass": "1500 g", "faithful": true},
+         "mission": {"type": "circle", "centre": ["-7.25 m", "1 km"], "speed": "7 km/h"},
+         "neighbours": {"source": "motion-capture", "beacon_period": "1 s"}},
+        {"name": "b", "vehicle": {"model": "fixed"}, "command": ["./x/run", "{{}}", "{name}"],
+         "environment": {"A": "{ip}"}, "capabilities": ["cap_net_raw"], "on_exit": "fail",
+         "start": {"layout": "list", "positions": [["1 m", "2 m", "30 cm"]]}}],
+      "ground_station": {"page": "none"}, "record": {"frames": true}})";
+  std::vector<Scenario> scenarios{parse(rich)};
+  for (const auto& file : shipped()) {
+    scenarios.push_back(load_scenario(file));
+  }
+
+  for (const Scenario& scenario : scenarios) {
+    const std::string once = to_json(scenario).dump(2);
+    INFO(once);
+
+    const Scenario again = parse_scenario(once, "resolved", scenario.folder);
+
+    CHECK(to_json(again).dump(2) == once);
+  }
+  CHECK(scenarios.front().fleet.at(0).neighbours.timeout == 3s);  // three beacon periods
+  CHECK(scenarios.front().fleet.at(1).command.front() == "/scenarios/x/run");
+}
+
+TEST_CASE("Every shipped scenario loads, and uses the schema beside it") {
+  const auto files = shipped();
+
+  REQUIRE(files.size() >= 3);
+  for (const auto& file : files) {
+    CAPTURE(file);
+    std::ifstream stream{file};
+    CHECK(json::parse(stream).at("$schema") == "./scenario.schema.json");
+    CHECK(load_scenario(file).name == file.stem());
+  }
+}
+
+TEST_CASE("The default scenario is the paper's fleet") {
+  const Scenario scenario = load_scenario(kFolder / "default.json");
+
+  CHECK(scenario.uav_count() == 10);
+  CHECK(scenario.duration == 60s);
+  const Group& group = scenario.fleet.at(0);
+  CHECK(group.mission.value().radius_m == 20.0);
+  CHECK(group.mission.value().altitude_m == 10.0);
+  CHECK(group.mission.value().speed_mps == 2.0);
+  CHECK(group.neighbours.beacon_period == 50ms);
+  CHECK(scenario.ground_station.page_port == 8080);
+}
+
+/// All keys below `schema`, with those of alternatives and of referenced definitions.
+void collect_keys(const json& schema, std::set<std::string>& keys) {
+  if (schema.is_object()) {
+    if (schema.contains("properties")) {
+      for (const auto& [key, value] : schema.at("properties").items()) {
+        keys.insert(key);
+      }
+    }
+    for (const auto& [key, value] : schema.items()) {
+      collect_keys(value, keys);
+    }
+  } else if (schema.is_array()) {
+    for (const json& element : schema) {
+      collect_keys(element, keys);
+    }
+  }
+}
+
+TEST_CASE("Every key of the schema is described in docs/scenario.md") {
+  std::set<std::string> keys;
+  collect_keys(json::parse(scenario_schema()), keys);
+  std::ifstream stream{kFolder.parent_path() / "docs" / "scenario.md"};
+  const std::string page{std::istreambuf_iterator<char>{stream}, {}};
+
+  REQUIRE(keys.size() > 60);
+  for (const std::string& key : keys) {
+    CAPTURE(key);
+    CHECK(page.find('`' + key + '`') != std::string::npos);
+  }
+}
+
+TEST_CASE("The schema's defaults are the ones that the reader fills in") {
+  const json resolved = json::parse(to_json(parse(R"({"name": "t", "fleet": [{}]})")).dump());
+  const json schema = json::parse(scenario_schema());
+  int compared = 0;
+  const std::function<void(const json&, const json&, const std::string&)> compare =
+      [&](const json& node, const json& value, const std::string& path) {
+        if (node.contains("default") && path != "/description") {
+          CAPTURE(path);
+          CHECK(node.at("default") == value);
+          ++compared;
+        }
+        if (node.contains("items") && value.is_array() && value.size() == 1) {
+          compare(node.at("items"), value.at(0), path + "/0");
+        }
+        for (const json& alternative : node.value("anyOf", json::array())) {
+          const json& properties = alternative.value("properties", json::object());
+          const std::string tag = properties.contains("layout") ? "layout" : "model";
+          if (!value.is_object() ||
+              (properties.contains(tag) && properties.at(tag).at("enum").at(0) != value.at(tag))) {
+            continue;
+          }
+          compare(alternative, value, path);
+        }
+        if (!node.contains("properties") || !value.is_object()) {
+          return;
+        }
+        for (const auto& [key, child] : node.at("properties").items()) {
+          if (value.contains(key)) {
+            compare(child, value.at(key), path + '/' + key);
+          }
+        }
+      };
+
+  compare(schema, resolved, "");
+
+  CHECK(compared > 50);
+}
+
+TEST_CASE("Options replace values, create objects and reach into the fleet") {
+  const Scenario scenario =
+      parse(R"({"name": "t", "fleet": [{"count": 2}]})",
+            {parse_override("fleet.0.count=5"),
+             parse_override("radio.data_rate=\"12 Mb/s\""),
+             parse_override("radio.group_rate=24 Mb/s"),
+             parse_override("ground_station.page=none"),
+             parse_override("realtime=false"),
+             {.option = "--duration 90s", .path = "duration", .value = "90s"}});
+
+  CHECK(scenario.fleet.at(0).count == 5);
+  CHECK(scenario.radio.data_rate_kbps == 12000);
+  CHECK(scenario.radio.group_rate_kbps == 24000);
+  CHECK_FALSE(scenario.ground_station.page_port);
+  CHECK_FALSE(scenario.realtime);
+  CHECK(scenario.duration == 90s);
+}
+
+TEST_CASE("A file that cannot be a scenario is refused by its name") {
+  CHECK_THROWS_WITH(load_scenario("/nonexistent/a.json"), "/nonexistent/a.json: does not exist");
+  CHECK_THROWS_WITH(load_scenario("/"), "/: is not a file");
+  CHECK_THROWS_WITH(load_scenario("/dev/zero"), "/dev/zero: is not a file");
+}
+
+TEST_CASE("A fleet of one thousand is allowed") {
+  const Scenario scenario = parse(R"({"name": "t", "fleet": [{"count": 1000}]})");
+
+  CHECK(scenario.uav_count() == 1000);
+}
+
+TEST_CASE("A grid is square, centred, with equal steps") {
+  Group group;
+  group.count = 4;
+  group.start.layout = GridLayout{.spacing_m = 2.0, .centre_m = {10.0, 20.0, 0.0}};
+
+  const auto positions = start_positions(group);
+
+  CHECK(positions == std::vector<Position_m>{
+                         {9.0, 19.0, 0.0}, {11.0, 19.0, 0.0}, {9.0, 21.0, 0.0}, {11.0, 21.0, 0.0}});
+}
+
+TEST_CASE("A circle begins in the east and goes counter-clockwise") {
+  Group group;
+  group.count = 4;
+  group.start.layout = CircleLayout{.radius_m = 20.0, .centre_m = {1.0, 0.0, 5.0}};
+
+  const auto positions = start_positions(group);
+
+  REQUIRE(positions.size() == 4);
+  CHECK(positions[0][0] == Approx(21.0));
+  CHECK(positions[1][1] == Approx(20.0));
+  CHECK(positions[2][0] == Approx(-19.0));
+  CHECK(positions[3][2] == 5.0);
+}
+
+TEST_CASE("A line is centred and runs in its direction") {
+  Group group;
+  group.count = 3;
+  group.start.layout = LineLayout{
+      .spacing_m = 2.0, .centre_m = {0.0, 1.0, 0.0}, .direction_rad = std::numbers::pi / 2};
+
+  const auto positions = start_positions(group);
+
+  REQUIRE(positions.size() == 3);
+  CHECK(positions[0][1] == Approx(-1.0));
+  CHECK(positions[1][1] == Approx(1.0));
+  CHECK(positions[2][1] == Approx(3.0));
+  CHECK(positions[2][0] == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("Placeholders stand for the UAV's own values, doubled braces for braces") {
+  PlaceholderValues values;
+  values.index = "3";
+  values.name = "uav3";
+  values.ip = "10.42.0.4";
+  values.ip_of = [](const std::string& name) {
+    return name == "uav7" ? std::optional<std::string>{"10.42.0.8"} : std::nullopt;
+  };
+
+  CHECK(expand("--id={index}/{name}@{ip}", values) == "--id=3/uav3@10.42.0.4");
+  CHECK(expand("{ip:uav7}", values) == "10.42.0.8");
+  CHECK(expand("{{print $1}}", values) == "{print $1}");
+  CHECK(expand("", values).empty());
+  CHECK_THROWS_WITH(expand("{", values), Catch::Contains("without a }"));
+  CHECK_THROWS_WITH(expand("}", values), Catch::Contains("without a {"));
+  CHECK_THROWS_WITH(expand("{ip:uav8}", values), Catch::Contains("there is no \"uav8\""));
+}
+
+TEST_CASE("Programs are looked for where the run will look") {
+  const auto check = [](const std::string& program) {
+    check_programs(parse(R"({"name": "t", "fleet": [{"command": [")" + program + R"("]}]})"),
+                   "flight.json", "/nonexistent:/bin:/usr/bin");
+  };
+
+  CHECK_NOTHROW(check("sh"));
+  CHECK_NOTHROW(check("/bin/sh"));
+  CHECK_NOTHROW(check("./agent-{index}"));  // known only in the run
+  CHECK_THROWS_WITH(check("no-such-program"),
+                    Catch::StartsWith("flight.json: /fleet/0/command/0: \"no-such-program\" is not "
+                                      "in /nonexistent:/bin:/usr/bin"));
+  CHECK_THROWS_WITH(check("./no-such-program"),
+                    Catch::Contains("\"/scenarios/no-such-program\" is not there"));
+  CHECK_THROWS_WITH(check("/etc/passwd"), Catch::Contains("not executable"));
+}
+
+TEST_CASE("IPv4 networks are four small numbers and a prefix") {
+  const auto subnet = parse_subnet("10.42.0.0/16");
+
+  REQUIRE(subnet);
+  CHECK(subnet->host_count() == 65534);
+  CHECK(ipv4_text(subnet->host(0)) == "10.42.0.1");
+  CHECK(ipv4_text(subnet->broadcast()) == "10.42.255.255");
+  for (const char* text : {"", "10.42.0/16", "10.42.0.0.0/16", "256.0.0.0/8", "010.0.0.0/8",
+                           "10.0.0.0/33", "10.0.0.0/", "10.0.0.0/8 ", "-1.0.0.0/8", "a.b.c.d/8"}) {
+    CAPTURE(text);
+    CHECK_FALSE(parse_subnet(text));
+  }
+}
+
+}  // namespace
+}  // namespace cuscus::scenario

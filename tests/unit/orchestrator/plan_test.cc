@@ -1,0 +1,265 @@
+#include "orchestrator/plan/plan.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/scenario/scenario_error.h"
+#include "orchestrator/plan/capacity.h"
+
+namespace cuscus::orchestrator {
+namespace {
+
+const std::filesystem::path kFolder{CUSCUS_SCENARIO_FOLDER};
+
+scenario::Scenario parse(const std::string& text) {
+  return scenario::parse_scenario(text, "flight.json", "/scenarios");
+}
+
+Plan plan_of(const std::string& text) { return make_plan(parse(text)); }
+
+TEST_CASE("The default scenario becomes ten UAVs and a ground station") {
+  const Plan plan = make_plan(scenario::load_scenario(kFolder / "default.json"));
+
+  REQUIRE(plan.nodes.size() == 11);
+  std::set<std::string> ips;
+  std::set<std::string> macs;
+  for (std::uint32_t i = 0; i < 11; ++i) {
+    const NodePlan& node = plan.nodes[i];
+    CHECK(node.index == i);
+    CHECK(node.ip == "10.42.0." + std::to_string(i + 1));
+    CHECK((node.mac[0] & 0x03U) == 0x02U);  // locally administered, not a group address
+    ips.insert(node.ip);
+    macs.insert(mac_text(node.mac));
+  }
+  CHECK(ips.size() == 11);
+  CHECK(macs.size() == 11);
+  CHECK(plan.nodes[0].name == "uav0");
+  CHECK(plan.nodes[9].name == "uav9");
+  CHECK(plan.nodes[9].role == NodeRole::kUav);
+  CHECK(plan.nodes[10].name == "gcs");
+  CHECK(plan.nodes[10].role == NodeRole::kGroundStation);
+  CHECK(mac_text(plan.nodes[0].mac) == "02:63:75:73:00:01");
+  CHECK(plan.nodes[3].tap == "tap3");
+  CHECK(plan.nodes[3].bridge == "br3");
+  CHECK(plan.nodes[3].veth == "veth3");
+  CHECK(plan.hosts.size() == 11);
+  CHECK(plan.page_port == 8080);
+  CHECK_FALSE(plan.motion_capture_memory);
+}
+
+TEST_CASE("Each component of the default scenario is told all that it needs") {
+  const Plan plan = make_plan(scenario::load_scenario(kFolder / "default.json"));
+
+  const proto::WorldConfiguration& world = plan.world;
+  CHECK(world.step_ns() == 1'000'000);
+  CHECK(world.imu_period_ns() == 5'000'000);
+  CHECK(world.motion_capture_period_ns() == 10'000'000);
+  CHECK(world.gravity_mps2() == 9.81);
+  REQUIRE(world.nodes_size() == 11);
+  CHECK(world.nodes(0).p_wb_start_m().x() == 20.0);
+  CHECK(world.nodes(0).multirotor().mass_kg() == 1.2);
+  CHECK(world.nodes(0).multirotor().motor_speed_per_command() == 86.0);
+  CHECK(world.nodes(0).multirotor().source() == "FL-AIR, simulator_x4.xml");
+  CHECK_FALSE(world.nodes(10).has_multirotor());
+  CHECK(world.nodes(10).p_wb_start_m().z() == 1.0);
+
+  const proto::RadioConfiguration& radio = plan.radio;
+  CHECK(radio.standard() == "802.11g");
+  CHECK(radio.data_rate_kbps() == 6000);
+  CHECK(radio.basic_rates_kbps_size() == 3);
+  CHECK(radio.carrier_hz() == 2.437e9);
+  CHECK(radio.slot_ns() == 20'000);
+  CHECK(radio.queue_lifetime_ns() == 500'000'000);
+  CHECK(radio.detection_minimum_dbm() == -82.0);
+  CHECK(radio.propagation().model() == "friis");
+  CHECK(radio.bridge());
+  REQUIRE(radio.nodes_size() == 11);
+  CHECK(radio.nodes(4).mac() == std::string("\x02\x63\x75\x73\x00\x05", 6));
+  CHECK(radio.nodes(4).tx_power_dbm() == 16.0);
+  CHECK(radio.realtime_priority() > world.realtime_priority());
+
+  const proto::AgentConfiguration& agent = plan.nodes[3].agent.value();
+  CHECK(agent.node() == 3);
+  CHECK(agent.slot() == 3);
+  CHECK(agent.fleet_size() == 10);
+  CHECK(agent.control_period_ns() == 5'000'000);
+  CHECK(agent.circle().radius_m() == 20.0);
+  CHECK(agent.circle().p_wc_centre_m().z() == 10.0);
+  CHECK(agent.beacon_period_ns() == 50'000'000);
+  CHECK(agent.beacon_address() == "10.42.255.255");
+  CHECK(agent.beacon_port() == 47100);
+  CHECK(agent.telemetry_address() == "10.42.0.11");
+  CHECK(agent.telemetry_port() == 47000);
+  CHECK(agent.slot_nodes_size() == 10);
+  CHECK(agent.realtime_priority() < world.realtime_priority());
+
+  const proto::GroundStationConfiguration& gcs = plan.ground_station.value();
+  CHECK(gcs.node() == 10);
+  CHECK(gcs.nodes_size() == 11);
+  CHECK(gcs.nodes(0).is_vehicle());
+  CHECK_FALSE(gcs.nodes(10).is_vehicle());
+  CHECK(gcs.circle().radius_m() == 20.0);
+  CHECK(gcs.duration_ns() == 60'000'000'000);
+}
+
+TEST_CASE("Two pings become two fixed nodes with a command each and nothing else") {
+  const Plan plan = make_plan(scenario::load_scenario(kFolder / "two-pings.json"));
+
+  REQUIRE(plan.nodes.size() == 2);
+  CHECK_FALSE(plan.ground_station);
+  CHECK_FALSE(plan.page_port);
+  for (const NodePlan& node : plan.nodes) {
+    CHECK(node.role == NodeRole::kFixed);
+    CHECK_FALSE(node.agent);
+    REQUIRE(node.programs.size() == 1);
+    CHECK(node.programs[0].kind == ProgramKind::kCommand);
+    CHECK(node.programs[0].capabilities == std::vector<std::string>{"cap_net_raw"});
+    CHECK_FALSE(node.programs[0].has_control_socket);
+  }
+  CHECK(plan.nodes[0].programs[0].arguments.back() == "10.42.0.2");
+  CHECK(plan.nodes[1].programs[0].arguments.back() == "10.42.0.1");
+  CHECK(plan.nodes[0].programs[0].log_name == "left0-command.log");
+  CHECK(std::hypot(plan.nodes[0].p_WB_start_m[0] - plan.nodes[1].p_WB_start_m[0],
+                   plan.nodes[0].p_WB_start_m[1] - plan.nodes[1].p_WB_start_m[1]) == 100.0);
+}
+
+TEST_CASE("A command is given its own UAV's values, and its environment wins") {
+  const Plan plan = plan_of(R"({"name": "t", "fleet": [
+      {"name": "a", "count": 2, "command": ["./run", "{index}", "{name}", "{gcs_ip}"],
+       "environment": {"LANG": "it_IT", "ME": "{ip}"}}]})");
+
+  const NodePlan& node = plan.nodes.at(1);
+  REQUIRE(node.programs.size() == 2);
+  CHECK(node.programs[0].kind == ProgramKind::kAgent);
+  CHECK(node.programs[0].has_control_socket);
+  const Program& command = node.programs[1];
+  CHECK(command.arguments == std::vector<std::string>{"/scenarios/run", "1", "a1", "10.42.0.3"});
+  const std::set<std::string> environment(command.environment.begin(), command.environment.end());
+  CHECK(environment.contains("LANG=it_IT"));
+  CHECK_FALSE(environment.contains("LANG=C.UTF-8"));
+  CHECK(environment.contains("ME=10.42.0.2"));
+  CHECK(environment.contains("CUSCUS_NAME=a1"));
+  CHECK(environment.contains("CUSCUS_GCS_IP=10.42.0.3"));
+}
+
+TEST_CASE("Each group is a formation of its own") {
+  const Plan plan = plan_of(R"({"name": "t", "fleet": [
+      {"name": "a", "count": 2},
+      {"name": "b", "count": 3, "start": {"layout": "grid", "centre": ["50 m", "0 m", "0 m"]},
+       "neighbours": {"source": "motion-capture"}}]})");
+
+  const proto::AgentConfiguration& agent = plan.nodes.at(4).agent.value();
+  CHECK(agent.name() == "b2");
+  CHECK(agent.node() == 4);
+  CHECK(agent.slot() == 2);
+  CHECK(agent.fleet_size() == 3);
+  CHECK(agent.slot_nodes(0) == 2);
+  CHECK(agent.slot_nodes(2) == 4);
+  CHECK(agent.beacon_port() != plan.nodes.at(0).agent.value().beacon_port());
+  CHECK_FALSE(agent.has_circle());
+  CHECK(plan.motion_capture_memory);
+  CHECK(plan.nodes.at(4).sees_motion_capture);
+  CHECK_FALSE(plan.nodes.at(0).sees_motion_capture);
+}
+
+TEST_CASE("Without the wish for real time nobody asks for it") {
+  const Plan plan = plan_of(R"({"name": "t", "realtime": false, "fleet": [{}]})");
+
+  CHECK(plan.world.realtime_priority() == 0);
+  CHECK(plan.radio.realtime_priority() == 0);
+  CHECK(plan.nodes.at(0).agent.value().realtime_priority() == 0);
+}
+
+TEST_CASE("A directly attached node has neither bridge nor veth") {
+  const Plan plan = plan_of(R"({"name": "t", "network": {"attach": "direct"}, "fleet": [{}]})");
+
+  CHECK(plan.nodes.at(0).bridge.empty());
+  CHECK(plan.nodes.at(0).veth.empty());
+  CHECK_FALSE(plan.radio.bridge());
+}
+
+TEST_CASE("Each propagation model reaches the radio with its parameters") {
+  const Plan paper = plan_of(R"({"name": "t", "fleet": [{}], "radio": {"propagation":
+      {"model": "paper-eq1", "alpha": 22, "chi": "9 dB2"}, "preamble_detection": "none"}})");
+  CHECK(paper.radio.propagation().alpha() == 22.0);
+  CHECK(paper.radio.propagation().chi_db2() == 9.0);
+  CHECK(paper.radio.detection_minimum_dbm() == -HUGE_VAL);
+
+  const Plan distance = plan_of(R"({"name": "t", "fleet": [{}], "radio": {"propagation":
+      {"model": "log-distance", "exponent": 2.7}}})");
+  CHECK(distance.radio.propagation().exponent() == 2.7);
+  CHECK(distance.radio.propagation().reference_loss_db() == 0.0);
+}
+
+TEST_CASE("A thousand UAVs have a thousand addresses, and too small a network is refused") {
+  const Plan plan = plan_of(R"({"name": "t", "fleet": [{"count": 1000}]})");
+  std::set<std::string> ips;
+  std::set<std::string> macs;
+  for (const NodePlan& node : plan.nodes) {
+    ips.insert(node.ip);
+    macs.insert(mac_text(node.mac));
+    CHECK(node.veth.size() <= 15);  // IFNAMSIZ - 1
+  }
+  CHECK(ips.size() == 1001);
+  CHECK(macs.size() == 1001);
+  CHECK(plan.nodes.at(300).ip == "10.42.1.45");
+
+  CHECK_THROWS_WITH(
+      plan_of(R"({"name": "t", "network": {"subnet": "10.0.0.0/24"}, "fleet": [{"count": 254}]})"),
+      Catch::Contains("has 254 addresses for 255 nodes"));
+  CHECK_NOTHROW(
+      plan_of(R"({"name": "t", "network": {"subnet": "10.0.0.0/24"}, "fleet": [{"count": 253}]})"));
+}
+
+TEST_CASE("Time on air is the standard's") {
+  // A 64 B IP packet is a PSDU of 100 B, a 1500 B one of 1536 B. IEEE Std 802.11-2020, 17.4.3:
+  // 20 us + 4 us ceil((22 + 8 L) / N_DBPS), and 6 us signal extension (18.3.2.4).
+  CHECK(airtime_s(64, 6000) == Approx(166e-6));
+  CHECK(airtime_s(64, 54000) == Approx(42e-6));
+  CHECK(airtime_s(1500, 6000) == Approx(2078e-6));
+  CHECK(airtime_s(1500, 54000) == Approx(254e-6));
+  CHECK(airtime_s(64, 1000) == Approx(992e-6));  // 192 us + 800 bit
+}
+
+TEST_CASE("The estimate counts beacons at every receiver and telemetry at one") {
+  const Plan plan = make_plan(scenario::load_scenario(kFolder / "default.json"));
+
+  // 10 UAVs x 20 beacons/s + 10 x 5 reports/s; each beacon goes to 10 others.
+  CHECK(plan.capacity.frames_per_s == Approx(250.0));
+  CHECK(plan.capacity.copies_per_s == Approx(2050.0));
+  CHECK(plan.capacity.air_busy_fraction > 0.05);
+  CHECK(plan.capacity.air_busy_fraction < 0.15);
+  CHECK(plan.capacity.warnings.empty());
+}
+
+TEST_CASE("A fleet that the host or the air cannot carry is warned about") {
+  const Plan plan = plan_of(R"({"name": "t", "fleet": [{"count": 200,
+      "neighbours": {"beacon_period": "10 ms"}}]})");
+
+  REQUIRE(plan.capacity.warnings.size() == 2);
+  CHECK_THAT(plan.capacity.warnings[0], Catch::Contains("keep the air busy"));
+  CHECK_THAT(plan.capacity.warnings[1], Catch::Contains("the emulator needs about"));
+  CHECK_THAT(to_text(plan), Catch::Contains("  warning  beacons and telemetry"));
+}
+
+TEST_CASE("Every shipped scenario can be planned and printed") {
+  int planned = 0;
+  for (const auto& entry : std::filesystem::directory_iterator{kFolder}) {
+    if (entry.path().extension() != ".json" || entry.path().stem() == "scenario.schema") {
+      continue;
+    }
+    CAPTURE(entry.path());
+    const Plan plan = make_plan(scenario::load_scenario(entry.path()));
+
+    CHECK(to_json(plan).at("nodes").size() == plan.nodes.size());
+    CHECK_THAT(to_text(plan), Catch::StartsWith(entry.path().stem().string() + ": "));
+    ++planned;
+  }
+  CHECK(planned >= 3);
+}
+
+}  // namespace
+}  // namespace cuscus::orchestrator

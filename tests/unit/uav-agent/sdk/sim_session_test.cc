@@ -1,0 +1,129 @@
+#include "uav-agent/sdk/sim/sim_session.h"
+
+#include <catch2/catch.hpp>
+
+#include "tests/unit/uav-agent/simulated_run.h"
+
+namespace cuscus::sdk {
+namespace {
+
+using tests::SimulatedRun;
+
+proto::AgentConfiguration configuration() {
+  proto::AgentConfiguration result;
+  result.set_node(SimulatedRun::kNode);
+  result.set_name("uav2");
+  return result;
+}
+
+TEST_CASE("a program gets its vehicle, its start and its stop") {
+  SimulatedRun run;
+  run.configure(configuration());
+  ipc::ChildSession child{std::move(run.program)};
+  SimSession session{child};
+  run.start();
+
+  CHECK(session.configuration().name() == "uav2");
+  CHECK(session.wait_for_start());
+  CHECK(run.orchestrator.receive().envelope.has_ready());
+  CHECK_FALSE(session.stop_requested());
+  session.beat("flying");
+  CHECK(run.orchestrator.receive().envelope.status().state() == "flying");
+  run.stop();
+  CHECK(session.stop_requested());
+  proto::AgentReport report;
+  report.set_loops(17);
+  session.finish(report);
+  CHECK(run.orchestrator.receive().envelope.report().agent().loops() == 17);
+}
+
+TEST_CASE("a vehicle shows what the world writes, and its commands reach the world") {
+  SimulatedRun run;
+  run.configure(configuration());
+  ipc::ChildSession child{std::move(run.program)};
+  SimSession session{child};
+  Vehicle& vehicle = session.vehicle();
+
+  CHECK_FALSE(vehicle.sensors().imu());
+  CHECK_FALSE(vehicle.sensors().motion_capture());
+  run.sensors.publish(shm::ImuReading{.sim_time_ns = 5,
+                                      .sequence = 1,
+                                      .angular_rate_B_radps = {1.0, 2.0, 3.0},
+                                      .specific_force_B_mps2 = {4.0, 5.0, 6.0}});
+  run.sensors.publish(shm::MotionCaptureReading{
+      .sim_time_ns = 6, .sequence = 2, .p_WB_m = {7.0, 8.0, 9.0}, .q_WB = {0.5, 0.5, -0.5, 0.5}});
+  const auto imu = vehicle.sensors().imu().value();
+  CHECK(imu.time == sim_time(5));
+  CHECK(imu.sequence == 1);
+  CHECK(imu.angular_rate_B_radps == Eigen::Vector3d{1.0, 2.0, 3.0});
+  CHECK(imu.specific_force_B_mps2 == Eigen::Vector3d{4.0, 5.0, 6.0});
+  const auto capture = vehicle.sensors().motion_capture().value();
+  CHECK(capture.p_WB_m == Eigen::Vector3d{7.0, 8.0, 9.0});
+  CHECK(capture.q_WB.w() == 0.5);
+  CHECK(capture.q_WB.y() == -0.5);
+
+  vehicle.actuators().set_motors({0.1, 0.2, 0.3, 0.4}, sim_time(77));
+  vehicle.actuators().set_motors({0.5, 0.6, 0.7, 0.8}, sim_time(78));
+  const auto command = run.actuators.command().value();
+  CHECK(command.sequence == 2);
+  CHECK(command.sim_time_ns == 78);
+  CHECK(command.motors == std::array{0.5, 0.6, 0.7, 0.8, 0.0, 0.0, 0.0, 0.0});
+}
+
+TEST_CASE("a vehicle sees its fleet only where it was given the memory") {
+  const bool given = GENERATE(true, false);
+  SimulatedRun run;
+  run.configure(configuration(), given);
+  ipc::ChildSession child{std::move(run.program)};
+  SimSession session{child};
+
+  const auto* const fleet = session.vehicle().fleet();
+
+  REQUIRE((fleet != nullptr) == given);
+  if (given) {
+    CHECK_FALSE(fleet->motion_capture_of(1));
+    CHECK_FALSE(fleet->motion_capture_of(SimulatedRun::kNodes));
+    run.fleet.publish(1, {.sim_time_ns = 6, .sequence = 3, .p_WB_m = {1.0, 2.0, 3.0}, .q_WB = {}});
+    CHECK(fleet->motion_capture_of(1).value().sequence == 3);
+  }
+}
+
+TEST_CASE("time stands at the beginning until the run starts, then runs") {
+  SimulatedRun run;
+  run.configure(configuration());
+  ipc::ChildSession child{std::move(run.program)};
+  SimSession session{child};
+  const Clock& clock = session.vehicle().clock();
+
+  CHECK(clock.now() == SimTime{});
+  run.clock.start(posix::monotonic_now_ns() - 1'000'000'000);
+  const SimTime now = clock.now();
+  CHECK(now >= sim_time(1'000'000'000));
+  // What has passed is not waited for; what is near is.
+  clock.sleep_until(sim_time(1));
+  clock.sleep_until(now + std::chrono::milliseconds{2});
+  CHECK(clock.now() >= now + std::chrono::milliseconds{2});
+}
+
+TEST_CASE("a program that is called off before its start is told so") {
+  SimulatedRun run;
+  run.configure(configuration());
+  ipc::ChildSession child{std::move(run.program)};
+  SimSession session{child};
+  run.stop();
+
+  CHECK_FALSE(session.wait_for_start());
+}
+
+TEST_CASE("the configuration of another component is refused") {
+  SimulatedRun run;
+  proto::Envelope configure;
+  configure.mutable_configure()->mutable_world();
+  run.orchestrator.send(configure);
+  ipc::ChildSession child{std::move(run.program)};
+
+  CHECK_THROWS_AS(SimSession{child}, ipc::PeerError);
+}
+
+}  // namespace
+}  // namespace cuscus::sdk

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "common/units/sim_time.h"
+#include "uav-agent/flight/readings.h"
+
+namespace cuscus::sdk {
+
+using flight::ImuReading;
+using flight::MotionCaptureReading;
+using flight::MotorCommands;
+
+/// The time of the run, and how to wait for an instant of it.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  [[nodiscard]] virtual SimTime now() const = 0;
+  /// Returns at once when `instant` has passed.
+  virtual void sleep_until(SimTime instant) const = 0;
+};
+
+/// The latest readings. Both return nothing before the first one, and the same one again until
+/// there is a newer: compare ImuReading::sequence. They never wait.
+class Sensors {
+ public:
+  virtual ~Sensors() = default;
+  [[nodiscard]] virtual std::optional<ImuReading> imu() const = 0;
+  /// Of this vehicle.
+  [[nodiscard]] virtual std::optional<MotionCaptureReading> motion_capture() const = 0;
+};
+
+/// The motion-capture system's view of all vehicles, where there is one to listen to.
+class FleetMotionCapture {
+ public:
+  virtual ~FleetMotionCapture() = default;
+  /// `node` as the run numbers its nodes; nothing for one that is not seen.
+  [[nodiscard]] virtual std::optional<MotionCaptureReading> motion_capture_of(
+      std::uint32_t node) const = 0;
+};
+
+/// The motors. A vehicle stops them by itself when commands stay away (FL-AIR: 100 ms), so that a
+/// program sends one every control period.
+class Actuators {
+ public:
+  virtual ~Actuators() = default;
+  /// 0 ... 1 each; `now` is when they were worked out.
+  virtual void set_motors(const MotorCommands& commands, SimTime now) = 0;
+};
+
+/// One vehicle, simulated or real: everything that a flying program needs besides its sockets,
+/// which are the operating system's own.
+class Vehicle {
+ public:
+  virtual ~Vehicle() = default;
+  [[nodiscard]] virtual const Clock& clock() const = 0;
+  [[nodiscard]] virtual const Sensors& sensors() const = 0;
+  [[nodiscard]] virtual Actuators& actuators() = 0;
+  /// Null where the vehicle cannot see the rest of its fleet.
+  [[nodiscard]] virtual const FleetMotionCapture* fleet() const = 0;
+};
+
+}  // namespace cuscus::sdk

@@ -1,0 +1,90 @@
+#include "world/app/configuration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace cuscus::world {
+namespace {
+
+/// A fleet beyond this is a corrupt message, not a scenario.
+constexpr std::uint32_t kMaxNodes = 100'000;
+
+void require(bool holds, const std::string& what) {
+  if (!holds) {
+    throw std::invalid_argument{"world configuration: " + what};
+  }
+}
+
+bool is_amount(double value) { return std::isfinite(value) && value >= 0.0; }
+
+void check_node(const proto::WorldNode& node) {
+  const std::string name = "node " + std::to_string(node.node()) + " '" + node.name() + "': ";
+  require(node.node() < kMaxNodes, name + "the node number must be below 100000");
+  const proto::Vector3& start = node.p_wb_start_m();
+  require(std::isfinite(start.x()) && std::isfinite(start.y()) && is_amount(start.z()),
+          name + "the start position must be finite and not below the ground");
+  require(std::isfinite(node.yaw_start_rad()), name + "yaw_start_rad must be finite");
+  if (!node.has_multirotor()) {
+    return;
+  }
+  require(node.multirotor().motor_timeout_ns() > 0, name + "motor_timeout_ns must be above 0");
+  try {
+    check_parameters(parameters_of(node.multirotor()));
+  } catch (const std::invalid_argument& error) {
+    require(false, name + error.what());
+  }
+}
+
+void check_period(const char* name, std::int64_t period_ns, std::int64_t step_ns) {
+  require(period_ns == 0 || period_ns >= step_ns,
+          std::string{name} + " must be 0 (none) or at least the step");
+}
+
+}  // namespace
+
+void check_configuration(const proto::WorldConfiguration& configuration) {
+  require(configuration.step_ns() > 0 && configuration.step_ns() <= 1'000'000'000,
+          "step_ns must be above 0 and at most one second");
+  require(is_amount(configuration.gravity_mps2()), "gravity_mps2 must be 0 or more");
+  require(is_amount(configuration.gyro_noise_radps()) &&
+              is_amount(configuration.accelerometer_noise_mps2()) &&
+              is_amount(configuration.motion_capture_noise_m()) &&
+              is_amount(configuration.motion_capture_noise_rad()),
+          "the standard deviation of noise must be 0 or more");
+  check_period("imu_period_ns", configuration.imu_period_ns(), configuration.step_ns());
+  check_period("motion_capture_period_ns", configuration.motion_capture_period_ns(),
+               configuration.step_ns());
+  std::set<std::uint32_t> numbers;
+  for (const proto::WorldNode& node : configuration.nodes()) {
+    check_node(node);
+    require(numbers.insert(node.node()).second,
+            "node " + std::to_string(node.node()) + " is there twice");
+  }
+}
+
+std::uint32_t slot_count(const proto::WorldConfiguration& configuration) {
+  std::uint32_t count = 0;
+  for (const proto::WorldNode& node : configuration.nodes()) {
+    count = std::max(count, node.node() + 1);
+  }
+  return count;
+}
+
+MultirotorParameters parameters_of(const proto::MultirotorParameters& message) {
+  return {.source = message.source(),
+          .mass_kg = message.mass_kg(),
+          .arm_m = message.arm_m(),
+          .thrust_factor = message.thrust_factor(),
+          .torque_factor = message.torque_factor(),
+          .drag_vertical_Nspm = message.drag_vertical(),
+          .drag_lateral_Nspm = message.drag_lateral(),
+          .inertia_roll_kgm2 = message.inertia_roll_kgm2(),
+          .inertia_pitch_kgm2 = message.inertia_pitch_kgm2(),
+          .inertia_yaw_kgm2 = message.inertia_yaw_kgm2(),
+          .motor_speed_per_command = message.motor_speed_per_command()};
+}
+
+}  // namespace cuscus::world
