@@ -10,9 +10,9 @@ namespace {
 
 TEST_CASE("broadcast datagrams reach every other node once, with their contents") {
   TapFleet fleet{3};
-  constexpr int kDatagrams = 40;
+  constexpr std::uint64_t kDatagrams = 40;
 
-  for (int i = 0; i < kDatagrams; ++i) {
+  for (std::uint64_t i = 0; i < kDatagrams; ++i) {
     const auto from = static_cast<std::uint32_t>(i % 3);
     const std::string text = "datagram " + std::to_string(i);
     fleet.send(from, test_address(255), text);
