@@ -117,9 +117,12 @@ void apply(Options& o) {
   air.group_rate_kbps = kbps(o.group_rate_mbps);
   air.slot = nanoseconds(o.slot_us * 1e-6);
   air.channel.carrier_hz = o.carrier_ghz * 1e9;
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  air.detection_minimum.value = o.no_detection ? kNone : o.detection_dbm;
-  air.detection_minimum_sinr.value = o.no_detection ? kNone : o.detection_sinr_db;
+  if (o.no_detection) {
+    o.detection_dbm = -std::numeric_limits<double>::infinity();
+    o.detection_sinr_db = -std::numeric_limits<double>::infinity();
+  }
+  air.detection_minimum.value = o.detection_dbm;
+  air.detection_minimum_sinr.value = o.detection_sinr_db;
 }
 
 void print(const Options& o, const SyntheticResult& r, double wall_s) {
