@@ -1,6 +1,7 @@
 // The life of a transmission: Air's other half.
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "common/units/constants.h"
 #include "netsim/air/air.h"
@@ -47,7 +48,7 @@ void Air::update_reach(std::uint32_t sender) {
     const DecibelMilliwatt received =
         radio.tx_power + radio.antenna_gain + radios_[reach.receiver].antenna_gain - loss;
     const double distance_m = (positions[sender] - positions[reach.receiver]).norm();
-    reach.delay = Duration{static_cast<Duration::rep>(distance_m / kSpeedOfLight_mps * 1e9 + 0.5)};
+    reach.delay = Duration{std::llround(distance_m / kSpeedOfLight_mps * 1e9)};
     reach.received_dbm = received.value;
     reach.received_mw = received.milliwatts();
   }

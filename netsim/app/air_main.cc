@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -38,11 +39,9 @@ struct Options {
   std::string positions_file;
 };
 
-std::uint32_t kbps(double mbps) { return static_cast<std::uint32_t>(mbps * 1e3 + 0.5); }
+std::uint32_t kbps(double mbps) { return static_cast<std::uint32_t>(std::lround(mbps * 1e3)); }
 
-Duration nanoseconds(double seconds) {
-  return Duration{static_cast<Duration::rep>(seconds * 1e9 + 0.5)};
-}
+Duration nanoseconds(double seconds) { return Duration{std::llround(seconds * 1e9)}; }
 
 void add_options(CLI::App& app, Options& o) {
   app.add_option("--traffic", o.traffic, "What is sent")
@@ -118,9 +117,12 @@ void apply(Options& o) {
   air.group_rate_kbps = kbps(o.group_rate_mbps);
   air.slot = nanoseconds(o.slot_us * 1e-6);
   air.channel.carrier_hz = o.carrier_ghz * 1e9;
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
-  air.detection_minimum = {o.no_detection ? kNone : o.detection_dbm};
-  air.detection_minimum_sinr = {o.no_detection ? kNone : o.detection_sinr_db};
+  if (o.no_detection) {
+    o.detection_dbm = -std::numeric_limits<double>::infinity();
+    o.detection_sinr_db = -std::numeric_limits<double>::infinity();
+  }
+  air.detection_minimum.value = o.detection_dbm;
+  air.detection_minimum_sinr.value = o.detection_sinr_db;
 }
 
 void print(const Options& o, const SyntheticResult& r, double wall_s) {

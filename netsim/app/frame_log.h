@@ -18,6 +18,8 @@ class FrameLog {
   FrameLog(posix::UniqueFd file, const AirParameters& parameters);
   FrameLog(const FrameLog&) = delete;
   FrameLog& operator=(const FrameLog&) = delete;
+  FrameLog(FrameLog&&) = delete;
+  FrameLog& operator=(FrameLog&&) = delete;
   /// Writes what is left.
   ~FrameLog();
 

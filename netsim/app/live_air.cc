@@ -23,6 +23,9 @@ namespace {
 constexpr std::int64_t kMicrosecond = 1'000;
 constexpr std::int64_t kMillisecond = 1'000'000;
 
+/// What was sent until this long before the start is thrown away.
+constexpr std::int64_t kFlush_ns = 2 * kMillisecond;
+
 /// A sleep ends this late at worst on a good day, so from here to the next release we spin.
 constexpr std::int64_t kSpin_ns = 150 * kMicrosecond;
 /// After this long without any sleep we spin less, to stay clear of the kernel's limit on real-time
@@ -99,6 +102,7 @@ std::int64_t LiveAir::now_ns() const { return posix::monotonic_now_ns() - start_
 void LiveAir::run(std::int64_t start_monotonic_ns, LiveOwner& owner) {
   start_ns_ = start_monotonic_ns;
   watch(wake_, owner.fd(), static_cast<std::uint32_t>(Wake::kOwner));
+  posix::sleep_until_monotonic(start_ns_ - kFlush_ns);
   forget_the_past();
   posix::sleep_until_monotonic(start_ns_);
   scheduler_ = posix::scheduling_class();

@@ -30,7 +30,9 @@ void LiveAir::take(const shm::SendStamp& stamp) {
   if (stamp.node >= ports_.size()) {
     return;
   }
-  const std::int64_t sent_ns = static_cast<std::int64_t>(stamp.monotonic_ns) - start_ns_;
+  // The little that was sent just before the run counts as sent when it began.
+  const std::int64_t sent_ns =
+      std::max<std::int64_t>(0, static_cast<std::int64_t>(stamp.monotonic_ns) - start_ns_);
   const std::uint32_t frame = frames_.add(stamp.node, stamp.frame_bytes, sent_ns);
   ports_[stamp.node].matcher.expect(frame, stamp);
   ++awaited_;

@@ -4,17 +4,49 @@
 #include <cstring>
 
 namespace cuscus::netsim {
+namespace {
+
+// Ethernet II and IPv4 (RFC 791), UDP (RFC 768).
+constexpr std::size_t kTypeAt = 12;
+constexpr std::size_t kIpAt = 14;
+constexpr std::size_t kProtocolAt = kIpAt + 9;
+constexpr std::uint8_t kUdp = 17;
+constexpr std::size_t kUdpChecksumAt = 6;
+
+/// Where the UDP checksum of an IPv4 frame is, if it is one.
+std::optional<std::size_t> udp_checksum_at(std::span<const std::uint8_t> frame) {
+  if (frame.size() <= kProtocolAt || frame[kTypeAt] != 0x08 || frame[kTypeAt + 1] != 0x00 ||
+      frame[kProtocolAt] != kUdp) {
+    return std::nullopt;
+  }
+  return kIpAt + std::size_t{4} * (frame[kIpAt] & 0x0fU) + kUdpChecksumAt;
+}
+
+bool same_head(const shm::SendStamp& stamp, std::span<const std::uint8_t> frame) {
+  const auto head = frame.first(std::min<std::size_t>(frame.size(), shm::SendStamp::kHeadBytes));
+  const auto equal = [&](std::size_t begin, std::size_t end) {
+    begin = std::min(begin, head.size());
+    end = std::min(end, head.size());
+    return std::memcmp(stamp.head.data() + begin, head.data() + begin, end - begin) == 0;
+  };
+  // At the egress of an interface with checksum offload (veth, say) the UDP checksum is that of the
+  // pseudo header; the kernel completes it further on.
+  if (const auto checksum = udp_checksum_at(frame)) {
+    return equal(0, *checksum) && equal(*checksum + 2, head.size());
+  }
+  return equal(0, head.size());
+}
+
+}  // namespace
 
 void StampMatcher::expect(std::uint32_t token, const shm::SendStamp& stamp) {
   stamps_.push_back({.token = token, .stamp = stamp});
 }
 
 StampMatcher::Match StampMatcher::match(std::span<const std::uint8_t> frame) {
-  const std::size_t head = std::min<std::size_t>(frame.size(), shm::SendStamp::kHeadBytes);
   for (std::size_t i = 0; i < stamps_.size(); ++i) {
     const shm::SendStamp& stamp = stamps_[i].stamp;
-    if (stamp.frame_bytes == frame.size() &&
-        std::memcmp(stamp.head.data(), frame.data(), head) == 0) {
+    if (stamp.frame_bytes == frame.size() && same_head(stamp, frame)) {
       const std::uint32_t token = stamps_[i].token;
       const auto lost = drop_first(i);
       stamps_.pop_front();

@@ -68,9 +68,9 @@ std::optional<shm::SendStamp> RingReader::next() {
 bool RingReader::empty() const {
   // The producer wakes a sleeper only when it sees that everything before its record was consumed:
   // our position must be visible before we look for records (Dekker's pattern).
-  std::atomic_thread_fence(std::memory_order_seq_cst);
-  return memory_.consumer->load(std::memory_order_relaxed) >=
-         memory_.producer->load(std::memory_order_acquire);
+  // A read-modify-write is that barrier.
+  return memory_.consumer->fetch_add(0, std::memory_order_seq_cst) >=
+         memory_.producer->load(std::memory_order_seq_cst);
 }
 
 StampRing::StampRing(posix::UniqueFd map) : map_{std::move(map)} {

@@ -53,6 +53,8 @@ class StampRing {
   explicit StampRing(posix::UniqueFd map);
   StampRing(const StampRing&) = delete;
   StampRing& operator=(const StampRing&) = delete;
+  StampRing(StampRing&&) = delete;
+  StampRing& operator=(StampRing&&) = delete;
   ~StampRing();
 
   [[nodiscard]] RingReader& reader() { return *reader_; }

@@ -94,6 +94,7 @@ Channel::Channel(const ChannelParameters& parameters)
 
 std::vector<std::string> Channel::model_names() {
   std::vector<std::string> names;
+  names.reserve(kModels.size());
   for (const Entry& entry : kModels) {
     names.emplace_back(entry.name);
   }

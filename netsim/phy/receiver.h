@@ -70,9 +70,9 @@ struct Arrival {
 
 /// When the parts of a transmission leave its antenna.
 struct PpduTiming {
-  SimTime header_begins;
-  SimTime payload_begins;
-  SimTime energy_ends;  ///< Without the signal extension.
+  SimTime header_begins{};
+  SimTime payload_begins{};
+  SimTime energy_ends{};  ///< Without the signal extension.
   const Mode* mode{};
 };
 

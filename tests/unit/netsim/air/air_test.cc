@@ -16,7 +16,7 @@ SimTime at(std::int64_t us) { return SimTime{} + microseconds{us}; }
 /// An air whose nodes stand on a line, and all that it says.
 class Field final : public AirListener {
  public:
-  explicit Field(const std::vector<double>& x_m, AirParameters parameters = {})
+  explicit Field(const std::vector<double>& x_m, const AirParameters& parameters = {})
       : positions_{on_x_axis(x_m)}, air{with_nodes(parameters, x_m.size()), positions_, *this} {}
 
   void delivered(const Delivery& delivery) override { deliveries.push_back(delivery); }
@@ -31,6 +31,7 @@ class Field final : public AirListener {
  private:
   static std::vector<Eigen::Vector3d> on_x_axis(const std::vector<double>& x_m) {
     std::vector<Eigen::Vector3d> positions;
+    positions.reserve(x_m.size());
     for (const double x : x_m) {
       positions.emplace_back(x, 0.0, 20.0);
     }
@@ -143,7 +144,7 @@ Tally total_of(Field& field, std::size_t nodes) {
   for (std::uint32_t node = 0; node < nodes; ++node) {
     const std::int32_t other = static_cast<std::int32_t>((node + 1) % nodes);
     for (int i = 0; i < 40; ++i) {
-      field.air.offer(node, at(i * 500),
+      field.air.offer(node, at(std::int64_t{500} * i),
                       {.destination = i % 3 == 0 ? kGroup : other, .psdu_bytes = 300});
     }
   }
@@ -169,6 +170,7 @@ Tally total_of(Field& field, std::size_t nodes) {
 TEST_CASE("every offered frame has one outcome and every reception one cause") {
   // Spread so that some links are strong, some weak and some hidden; short queues and lifetimes.
   std::vector<double> x_m;
+  x_m.reserve(12);
   for (int i = 0; i < 12; ++i) {
     x_m.push_back(170.0 * i);
   }
@@ -179,7 +181,7 @@ TEST_CASE("every offered frame has one outcome and every reception one cause") {
 
   const Tally t = total_of(field, x_m.size());
 
-  CHECK(t.offered == 12 * 40);
+  CHECK(t.offered == std::uint64_t{12} * 40);
   CHECK(field.reports.size() == t.offered);
   CHECK(t.sent_group + t.acknowledged + t.dropped_queue_full + t.dropped_lifetime +
             t.dropped_retry_limit ==
@@ -210,7 +212,8 @@ TEST_CASE("equal inputs give equal runs, however the simulation is driven") {
   for (Field* field : {&once, &again, &other_seed}) {
     for (std::uint32_t node = 0; node < x_m.size(); ++node) {
       for (int i = 0; i < 50; ++i) {
-        field->air.offer(node, at(i * 900 + 13 * static_cast<int>(node)), {.psdu_bytes = 400});
+        field->air.offer(node, at(std::int64_t{900} * i + 13 * static_cast<std::int64_t>(node)),
+                         {.psdu_bytes = 400});
       }
     }
   }
@@ -255,7 +258,8 @@ TEST_CASE("the delivery bound is never later than the delivery") {
   Field field{{0.0, 100.0, 250.0}};
   field.resend = true;
   for (std::uint32_t node = 0; node < 3; ++node) {
-    field.air.offer(node, at(10 * static_cast<int>(node)), {.psdu_bytes = 200});
+    field.air.offer(node, at(std::int64_t{10} * static_cast<std::int64_t>(node)),
+                    {.psdu_bytes = 200});
   }
 
   std::size_t checked = 0;

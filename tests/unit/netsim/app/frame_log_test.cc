@@ -21,6 +21,8 @@ class ScratchFile {
   ScratchFile() : fd{posix::check("mkostemp", ::mkostemp(path.data(), O_CLOEXEC))} {}
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
+  ScratchFile(ScratchFile&&) = delete;
+  ScratchFile& operator=(ScratchFile&&) = delete;
   ~ScratchFile() { ::unlink(path.c_str()); }
 
   std::string path{"/tmp/cuscus-frame-log-XXXXXX"};
@@ -71,7 +73,8 @@ TEST_CASE("a replay of sends that do not meet delivers what an idle air delivers
   ReplayLog log;
   log.air.nodes.assign(3, AirNode{});
   for (int i = 0; i < 100; ++i) {
-    log.frames.push_back(record(10'000'000 * i, static_cast<std::uint32_t>(i % 3), kGroup));
+    log.frames.push_back(
+        record(std::int64_t{10'000'000} * i, static_cast<std::uint32_t>(i % 3), kGroup));
   }
 
   const ReplayResult result = replay(log, AirParameters{}, DecibelMilliwatt{-50.0});

@@ -76,6 +76,24 @@ TEST_CASE("a frame shorter than a stamp's head is known by all of its bytes") {
   CHECK(matcher.match(frame('a', 20)).token == 1U);
 }
 
+TEST_CASE("a UDP checksum that was completed after the stamp makes no difference") {
+  auto sent = frame('u', 80);
+  sent[12] = 0x08;  // IPv4
+  sent[13] = 0x00;
+  sent[14] = 0x45;  // five words of header
+  sent[23] = 17;    // UDP
+  auto received = sent;
+  received[40] = 0x12;
+  received[41] = 0x34;
+  auto other = sent;
+  other[42] = 'v';
+  StampMatcher matcher;
+  matcher.expect(1, stamp_of(sent));
+
+  CHECK_FALSE(matcher.match(other).token);
+  CHECK(matcher.match(received).token == 1U);
+}
+
 TEST_CASE("stamps whose frames never came expire by age") {
   StampMatcher matcher;
   matcher.expect(1, stamp_of(frame('a'), 100));

@@ -19,7 +19,7 @@ class FakeRing {
     const std::uint64_t position = producer.load();
     const std::uint32_t header = bytes | flags;
     write(position, &header, sizeof header);
-    producer.store(position + (bytes + 8 + 7) / 8 * 8);
+    producer.store(position + (std::uint64_t{bytes} + 8 + 7) / 8 * 8);
     return position;
   }
   std::uint64_t push(std::uint64_t monotonic_ns, std::uint32_t flags = 0) {
