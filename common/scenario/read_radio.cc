@@ -8,9 +8,9 @@ namespace {
 
 using nlohmann::json;
 
-// IEEE Std 802.11-2020, clauses 15, 16 (DSSS, HR/DSSS) and 18 (ERP-OFDM).
-constexpr std::array<std::uint32_t, 12> kRates80211g_kbps{1000,  2000,  5500,  6000,  9000,  11000,
-                                                          12000, 18000, 24000, 36000, 48000, 54000};
+// IEEE Std 802.11-2020, clause 18 (ERP-OFDM); netsim has no DSSS rates yet.
+constexpr std::array<std::uint32_t, 8> kRates80211g_kbps{6000,  9000,  12000, 18000,
+                                                         24000, 36000, 48000, 54000};
 
 std::string rate_list(RadioStandard standard) {
   std::vector<std::string> names;

@@ -30,7 +30,7 @@ struct NotAvailable {
 /// A full ring loses stamps, never frames. The reader is whoever maps the ring.
 class SendStampRing {
  public:
-  static constexpr std::uint32_t kDefaultBytes = 4U << 20U;  // 58 000 stamps
+  static constexpr std::uint32_t kDefaultBytes = 16U << 20U;  // 230 000 stamps
 
   /// Makes the ring and tries a program on the loopback of a scratch namespace, so that a later
   /// attach() has no reason to fail. NotAvailable where bpf() or the tc hook is not to be had, as

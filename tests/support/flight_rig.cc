@@ -72,7 +72,7 @@ void FlightRig::read_sensors() {
     if (milliseconds_ % 5 == 0 && !sensors.imu_silent) {
       const auto sample =
           sensors.imu.sample({.angular_rate_B_radps = state.w_WB_B_radps,
-                              .specific_force_B_mps2 = plant_->specific_force_B_mps2(i)},
+                              .specific_force_B_mps2 = plant_->specific_force_mps2(i)},
                              milliseconds_ / 5);
       sensors.inertial = {.time = now_,
                           .sequence = milliseconds_ / 5,

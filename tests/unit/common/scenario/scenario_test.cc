@@ -75,7 +75,7 @@ TEST_CASE("The file's quantities arrive in SI units") {
 
 TEST_CASE("The scenario written out in full is the same scenario") {
   const std::string rich = R"({"name": "rich", "seed": 9223372036854775807, "clock": "real",
-      "radio": {"preamble_detection": "none", "basic_rates": ["24 Mb/s", "1 Mb/s"],
+      "radio": {"preamble_detection": "none", "basic_rates": ["24 Mb/s", "9 Mb/s"],
                 "propagation": {"model": "paper-eq1", "alpha": 22.5, "chi": "9 dB2"}},
       "network": {"subnet": "192.168.7.0/24", "attach": "direct", "neighbours": "arp"},
       "fleet": [
