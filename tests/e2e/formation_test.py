@@ -41,6 +41,15 @@ class Formation(unittest.TestCase):
                 self.assertEqual(node["agent"]["beacons_received"], 0, json.dumps(node))
                 self.assertGreater(node["agent"]["beacons_sent"], 200)
 
+    def test_without_a_mission_a_uav_waits_on_the_ground(self):
+        scenario = {"name": "idle", "duration": "3 s", "fleet": [{"name": "idle", "count": 2}]}
+        with Run(scenario, "--no-page") as run:
+            self.assertIn(run.wait(), (0, 3), run.stderr)
+            rows = [row for row in run.metrics() if row["node"] == "idle1"]
+            self.assertGreater(len(rows), 20)
+            self.assertTrue(all(row["z_m"] == 0 for row in rows))
+            self.assertEqual(rows[-1]["flight_state"], "stopped")
+
 
 if __name__ == "__main__":
     unittest.main()
