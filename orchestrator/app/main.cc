@@ -73,6 +73,21 @@ struct CommandLine {
     doctor_command->add_option("--nodes", doctor_nodes, "nodes to be flown");
   }
 
+  /// What is wrong with the first argument, when it should have been a subcommand; else nothing.
+  [[nodiscard]] std::string unknown_subcommand(int argc, char* argv[]) const {
+    if (argc < 2 || argv[1][0] == '-') {
+      return {};
+    }
+    std::string names;
+    for (const auto* const subcommand : app.get_subcommands([](const CLI::App*) { return true; })) {
+      if (subcommand->get_name() == argv[1]) {
+        return {};
+      }
+      names += (names.empty() ? "" : ", ") + subcommand->get_name();
+    }
+    return fmt::format("there is no subcommand '{}'; there are: {}", argv[1], names);
+  }
+
   int dispatch() {
     if (app.got_subcommand("run")) {
       return orchestrator::run_command(run);
@@ -107,6 +122,9 @@ int main(int argc, char* argv[]) try {
   try {
     line.app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const auto unknown = line.unknown_subcommand(argc, argv); !unknown.empty()) {
+      throw orchestrator::UsageError{unknown};
+    }
     const int code = line.app.exit(error);
     return code == 0 ? orchestrator::kExitDone : orchestrator::kExitUsage;
   }

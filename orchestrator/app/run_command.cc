@@ -89,6 +89,8 @@ int run_command(const RunArguments& arguments) {
     spdlog::warn("{}", warning);
   }
 
+  // Named before an ordinary user becomes root of a namespace, for `cuscus ps` to look there too.
+  const RunRegistry registry{RunRegistry::default_folder()};
   const node::Rights rights = acquire_run_rights();
   check_tun();
   const fs::path programs = check_own_programs();
@@ -97,7 +99,6 @@ int run_command(const RunArguments& arguments) {
   if (plan.page_port) {
     page_listener = listen_for_page(*plan.page_port);
   }
-  const RunRegistry registry{RunRegistry::default_folder()};
   for (const auto& dead : registry.sweep()) {
     spdlog::info("removed what run {} had left behind", dead);
   }
