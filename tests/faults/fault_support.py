@@ -104,9 +104,21 @@ class Target:
             self.pidfd = None
 
 
+def is_first_of_namespace(pid):
+    """Whether it has number 1 in its own namespace of processes."""
+    try:
+        status = pathlib.Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return False
+    return any(line.startswith("NSpid:") and line.split()[-1] == "1"
+               for line in status.splitlines())
+
+
 def members(run, program):
-    """The run's processes of that program, oldest first."""
-    return [pid for pid in descendants(run.process.pid) if program_path(pid).name == program]
+    """The run's processes of that program, oldest first. What an init has forked is still its
+    program for a moment, and no init."""
+    return [pid for pid in descendants(run.process.pid) if program_path(pid).name == program
+            and (program != "cuscus-init" or is_first_of_namespace(pid))]
 
 
 def namespaces_of(run):

@@ -1,0 +1,93 @@
+"""Processor hogs: a run on a host that does not keep up says so, and why."""
+
+import os
+import pathlib
+import subprocess
+import unittest
+
+from cuscus_run import Run
+from fault_support import private_registry, program_path, small_fleet
+
+HOGS = 4
+# Ends by itself, whatever happens to the test.
+LIMIT_S = 6
+
+
+def setUpModule():
+    private_registry()
+
+
+def runs_of_others():
+    """Emulators on this machine, none of which is ours yet: hogs would ruin those runs."""
+    return [entry.name for entry in pathlib.Path("/proc").iterdir() if entry.name.isdigit()
+            and program_path(entry.name).name in ("cuscus", "cuscus-netsim")]
+
+
+class Hogs:
+    """Four busy loops pinned on every core in turn, in netsim's own scheduling class if wanted."""
+
+    def __init__(self, realtime):
+        cores = sorted(os.sched_getaffinity(0))
+        wrapper = ["chrt", "--fifo", "60"] if realtime else []
+        self.processes = [
+            subprocess.Popen(["timeout", "--signal=KILL", str(LIMIT_S), "taskset", "--cpu-list",
+                              str(core), *wrapper, "sh", "-c", "while :; do :; done"])
+            for _ in range(max(1, HOGS // len(cores))) for core in cores]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *unused):
+        for process in self.processes:
+            process.terminate()  # `timeout` passes it on
+        for process in self.processes:
+            process.wait()
+
+
+class Hog(unittest.TestCase):
+    def setUp(self):
+        if others := runs_of_others():
+            self.skipTest(f"other runs are alive: {', '.join(others)}")
+
+    def check_consistent(self, run, code):
+        fidelity = run.fidelity
+        self.assertEqual(code, 3 if fidelity["verdict"] == "INVALID" else 0)
+        self.assertEqual(run.summary["verdict"], fidelity["verdict"])
+        self.assertEqual(run.summary["verdict_reasons"], fidelity["reasons"])
+        self.assertEqual(fidelity["verdict"] == "VALID", not fidelity["reasons"])
+        worst = {check["verdict"] for check in fidelity["checks"]}
+        self.assertIn(fidelity["verdict"], worst)
+        self.assertIn(f"fidelity: {fidelity['verdict']}", run.stdout)
+
+    def test_hogs_at_equal_priority_make_it_invalid(self):
+        # Shorter than the time after which a service that says nothing counts as hung.
+        with Run(small_fleet("4 s"), "--no-page") as run:
+            run.until_flying(0.2)
+            with Hogs(realtime=True):
+                code = run.wait(LIMIT_S + 20)
+            self.check_consistent(run, code)
+            self.assertEqual(code, 3, run.stdout)
+            self.assertEqual(run.summary["exit_code"], 3)
+            self.assertRegex(run.fidelity["reasons"][0], r"late|overran|ended after|did not run")
+
+    def test_ordinary_hogs_without_realtime(self):
+        scenario = small_fleet("5 s")
+        scenario["realtime"] = False
+        with Run(scenario, "--no-page") as run:
+            run.until_flying(0.5)
+            with Hogs(realtime=False):
+                code = run.wait(LIMIT_S + 20)
+            self.check_consistent(run, code)
+
+    def test_idle_machine_is_not_invalid(self):
+        load = float(pathlib.Path("/proc/loadavg").read_text().split()[0])
+        if load > 0.5 * len(os.sched_getaffinity(0)):
+            self.skipTest(f"the machine is not idle: load {load}")
+        with Run(small_fleet("5 s"), "--no-page") as run:
+            code = run.wait(60)
+            self.check_consistent(run, code)
+            self.assertNotEqual(run.fidelity["verdict"], "INVALID", run.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
