@@ -33,6 +33,7 @@ using cuscus::posix::UniqueFd;
 
 constexpr std::uint16_t kPort = 5005;
 constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
+constexpr std::int64_t kSettle_ns = 2'000 * kNanosecondsPerMillisecond;
 constexpr int kExitUsage = 2;
 
 struct Options {
@@ -97,7 +98,8 @@ class Beacon {
         datagram_(options.payload_bytes) {}
 
   void run() {
-    const std::int64_t start = monotonic_now_ns();
+    // By then the others are there to hear it.
+    const std::int64_t start = monotonic_now_ns() + kSettle_ns;
     // Phases spread by the golden ratio: no two senders of a fleet start together.
     const double turn = static_cast<double>(options_.index) * 0.6180339887498949;
     const double phase = turn - static_cast<double>(static_cast<std::int64_t>(turn));

@@ -50,7 +50,7 @@ int main(int argc, char* argv[]) {
   const ns3::NetDeviceContainer devices = wifi.Install(phy, mac, nodes);
 
   ns3::TapBridgeHelper tap;
-  tap.SetAttribute("Mode", ns3::StringValue("UseBridge"));
+  tap.SetAttribute("Mode", ns3::StringValue("UseLocal"));
   for (uint32_t i = 0; i < count; ++i) {
     tap.SetAttribute("DeviceName", ns3::StringValue("tap" + std::to_string(i)));
     tap.Install(nodes.Get(i), devices.Get(i));
