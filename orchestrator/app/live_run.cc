@@ -24,8 +24,6 @@ using std::chrono::steady_clock;
 constexpr milliseconds kReadyLimit{20'000};
 /// From Start to SimTime 0: every child has read its Start by then.
 constexpr std::int64_t kStartLead_ns = 100'000'000;
-/// Without a heartbeat for this long a service of ours is hung.
-constexpr milliseconds kHeartbeatLimit{5'000};
 /// Together below the five seconds in which an interrupted run has to be over.
 constexpr milliseconds kStopLimit{1'500};
 constexpr milliseconds kTerminateLimit{700};
@@ -296,14 +294,11 @@ void LiveRun::check_trouble() const {
   }
 }
 
-void LiveRun::check_heartbeats() const {
-  const auto now = steady_clock::now();
-  for (const Service* const service : {world_.get(), netsim_.get()}) {
-    const auto silent =
-        std::chrono::duration_cast<milliseconds>(now - service->component().last_heard());
-    if (silent > kHeartbeatLimit && sim_time_s() > 5.0) {
-      throw RunFailed{fmt::format("{} hangs: no heartbeat for {} ms", service->component().name(),
-                                  silent.count())};
+void LiveRun::check_heartbeats() {
+  for (Service* const service : {world_.get(), netsim_.get()}) {
+    if (service->hangs()) {
+      throw RunFailed{fmt::format("{} hangs: no heartbeat for {} s", service->component().name(),
+                                  HangWatch::kSilenceLimit.count())};
     }
   }
 }

@@ -88,7 +88,7 @@ class LiveRun {
   bool settle(std::chrono::milliseconds limit, const std::function<bool()>& done);
   /// Throws when a signal or a failure ends the run.
   void check_trouble() const;
-  void check_heartbeats() const;
+  void check_heartbeats();
   void wait_step(std::chrono::steady_clock::time_point deadline);
   [[nodiscard]] std::string progress_text() const;
   [[nodiscard]] double sim_time_s() const;

@@ -123,8 +123,11 @@ void NodeCrew::note_exit(const proto::Exited& exited) {
   const bool failed = !program.status || !program.status->succeeded();
   const bool own = program.plan->kind != ProgramKind::kCommand;
   if (!stopping_ && (failed || own) && program.plan->on_exit != scenario::OnExit::kIgnore) {
-    const std::string how =
+    std::string how =
         program.status ? "ended: " + text_of(*program.status) : "did not start: " + program.error;
+    if (program.component && program.component->failure()) {
+      how += ": " + *program.component->failure();
+    }
     spdlog::warn("{} {} at {:.3f} s", program.name, how, program.ended_at_s);
     // A program that cannot be started is a mistake in the scenario, whatever its end would mean.
     if (trouble_.empty() &&

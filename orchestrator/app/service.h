@@ -7,6 +7,7 @@
 
 #include "common/posix/child_process.h"
 #include "orchestrator/app/component.h"
+#include "orchestrator/app/hang_watch.h"
 #include "orchestrator/app/process_watch.h"
 
 namespace cuscus::orchestrator {
@@ -27,6 +28,10 @@ class Service {
   }
   void kill() { watch_.kill(SIGKILL); }
 
+  /// Silent for too long, and not for want of the processor. To be asked often.
+  [[nodiscard]] bool hangs() {
+    return hang_watch_.hangs(component_.last_heard(), std::chrono::steady_clock::now());
+  }
   /// Why the run cannot go on with it; empty while it can.
   [[nodiscard]] std::string trouble() const;
 
@@ -37,6 +42,7 @@ class Service {
 
   ProcessWatch watch_;
   Component component_;
+  HangWatch hang_watch_{watch_.pid()};
 };
 
 /// "exit code 1", "signal 9 (Killed)".

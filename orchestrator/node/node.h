@@ -83,6 +83,8 @@ class Node {
   [[nodiscard]] const posix::NetworkNamespace& network_namespace() const { return *namespace_; }
   /// Where netsim reads and writes this node's frames; valid after build_links().
   [[nodiscard]] int tap_fd() const { return tap_->fd(); }
+  /// Lets go of the TAP, so that another program can attach to it by its name.
+  void close_tap() { tap_.reset(); }
   /// What wlan0 and, in the fabric, the TAP have counted and dropped.
   [[nodiscard]] netlink::LinkCounters tap_counters(const Fabric& fabric) const;
 

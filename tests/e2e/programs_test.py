@@ -3,7 +3,6 @@
 import json
 import re
 import shutil
-import sys
 import unittest
 
 from cuscus_run import SOURCE, Run
@@ -70,8 +69,8 @@ class Programs(unittest.TestCase):
 
     def test_python_script(self):
         script = str(SOURCE / "tests" / "e2e" / "udp_echo.py")
-        scenario = flying_pair([sys.executable, script, "ask", "{ip:right0}", "100"],
-                               [sys.executable, script, "serve"])
+        scenario = flying_pair(["/usr/bin/python3", script, "ask", "{ip:right0}", "100"],
+                               ["/usr/bin/python3", script, "serve"])
         with Run(scenario, "--no-page") as run:
             self.check_flight(run)
             found = re.search(r"answered (\d+) of 100", run.log("left0-command.log"))

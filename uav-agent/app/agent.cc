@@ -53,7 +53,9 @@ Agent::Agent(const proto::AgentConfiguration& configuration, sdk::Vehicle& vehic
     telemetry_timer_.emplace(period,
                              control_phase(configuration.seed() + 1, configuration.node(), period));
   }
-  autopilot_.take_off(circle_.p_WC_centre_m.z());
+  if (configuration.has_circle()) {
+    autopilot_.take_off(circle_.p_WC_centre_m.z());
+  }  // Without a mission it waits on the ground.
 }
 
 SimTime Agent::deadline() const {

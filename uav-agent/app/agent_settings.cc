@@ -22,20 +22,25 @@ void take_if_given(double given, double& value) {
   }
 }
 
-}  // namespace
-
-void check(const proto::AgentConfiguration& configuration) {
-  const auto& circle = configuration.circle();
-  require(configuration.fleet_size() > 0, "fleet_size is 0");
-  require(configuration.slot() < configuration.fleet_size(), "slot is not below fleet_size");
-  require(configuration.control_period_ns() > 0, "control_period_ns is not positive");
+void check(const proto::CircleMission& circle) {
   require(positive(circle.radius_m()), "circle.radius_m is not positive");
-  require(positive(circle.speed_mps()), "circle.speed_mps is not positive");
+  require(circle.speed_mps() >= 0.0, "circle.speed_mps is negative");
   require(std::isfinite(circle.spacing_gain()) && circle.spacing_gain() >= 0.0,
           "circle.spacing_gain is negative");
   require(std::isfinite(circle.p_wc_centre_m().x()) && std::isfinite(circle.p_wc_centre_m().y()) &&
               positive(circle.p_wc_centre_m().z()),
           "circle.p_WC_centre_m is not above the ground");
+}
+
+}  // namespace
+
+void check(const proto::AgentConfiguration& configuration) {
+  require(configuration.fleet_size() > 0, "fleet_size is 0");
+  require(configuration.slot() < configuration.fleet_size(), "slot is not below fleet_size");
+  require(configuration.control_period_ns() > 0, "control_period_ns is not positive");
+  if (configuration.has_circle()) {
+    check(configuration.circle());
+  }
   require(configuration.neighbour_timeout_ns() > 0, "neighbour_timeout_ns is not positive");
   require(configuration.beacon_port() <= 65535, "beacon_port is no port");
   require(configuration.telemetry_port() <= 65535, "telemetry_port is no port");
@@ -71,6 +76,9 @@ flight::Airframe airframe(const proto::AgentConfiguration& configuration) {
 missions::CircleParameters circle(const proto::AgentConfiguration& configuration) {
   const auto& given = configuration.circle();
   missions::CircleParameters circle;
+  if (!configuration.has_circle()) {
+    return circle;  // not flown
+  }
   circle.p_WC_centre_m = {given.p_wc_centre_m().x(), given.p_wc_centre_m().y(),
                           given.p_wc_centre_m().z()};
   circle.radius_m = given.radius_m();
