@@ -160,14 +160,22 @@ void Node::launch(const proto::Launch& launch, int output_fd, int program_contro
   if (program_control_fd >= 0) {
     descriptors.push_back(program_control_fd);
   }
-  control_.send(envelope, descriptors);
+  try {
+    control_.send(envelope, descriptors);
+  } catch (const ipc::PeerError&) {
+    throw ipc::PeerError{network_.name + ": its init is dead"};
+  }
 }
 
 void Node::signal(std::uint32_t program, int signal_number) {
   proto::Envelope envelope;
   envelope.mutable_signal()->set_program(program);
   envelope.mutable_signal()->set_signal_number(signal_number);
-  control_.send(envelope);
+  try {
+    control_.send(envelope);
+  } catch (const ipc::PeerError&) {
+    return;  // the init is dead, and with it all that could be signalled
+  }
 }
 
 void Node::signal_all(int signal_number) { signal(kAllPrograms, signal_number); }

@@ -92,7 +92,7 @@ class Node {
   [[nodiscard]] int control_fd() const noexcept { return control_.fd(); }
   /// Asks for a program; Launched or Exited will answer. Descriptors as in control.proto; -1: none.
   void launch(const proto::Launch& launch, int output_fd = -1, int program_control_fd = -1);
-  /// Signals a program and its process group.
+  /// Signals a program and its process group; nothing when the init is dead, and they with it.
   void signal(std::uint32_t program, int signal_number);
   /// Signals everything in the node but its init.
   void signal_all(int signal_number);

@@ -35,10 +35,12 @@ class KillMatrix(unittest.TestCase):
         check_next_run(self)
 
     def kill_once(self, victim, phase, dice):
-        for _ in range(20):
+        for attempt in range(20):
             traces = Traces()
-            with Run(small_fleet(), "--no-page") as run:
-                killed = self.strike(run, traces, victim, phase, dice)
+            # An init has a command to be told the end, beside the agent.
+            group = {"command": ["sleep", "1000"]} if victim == "init" else {}
+            with Run(small_fleet(**group), "--no-page") as run:
+                killed = self.strike(run, traces, victim, phase, dice, attempt)
                 struck = time.monotonic()
                 code = run.wait(15)
                 took_s = time.monotonic() - struck
@@ -49,8 +51,8 @@ class KillMatrix(unittest.TestCase):
                     return
         self.fail(f"{victim} was always gone before it could be killed")
 
-    def strike(self, run, traces, victim, phase, dice):
-        """Kills the victim; False when it had ended already."""
+    def strike(self, run, traces, victim, phase, dice, attempt):
+        """Kills the victim; False when it had ended already, so that the next attempt is earlier."""
         program = f"cuscus-{victim}"
         pids = [run.process.pid]
         if phase != "set-up":
@@ -67,7 +69,7 @@ class KillMatrix(unittest.TestCase):
             traces.note(run)
             if phase == "tear-down":
                 run.interrupt()
-                wait_s(dice.uniform(0, 0.01))
+                wait_s(dice.uniform(0, 0.01) / 2**attempt)
             elif phase == "set-up" and victim != "cuscus":
                 wait_s(dice.uniform(0, 0.05))
             return target.signal()
