@@ -57,7 +57,8 @@ class HostileAgent(unittest.TestCase):
             self.assertGreater(last["z_m"], 0.5, last)
             self.assertLess(last["formation_error_m"], 5.0, last)
 
-    def fly_with_hostile_agent(self, mode, codes=(0, 3)):
+    def programs_with_hostile_agent(self, mode):
+        """A folder with this build's programs, in which uav1's agent is the hostile one."""
         bin_folder = self.folder / "bin"
         shutil.copytree(BIN, bin_folder)
         agent = bin_folder / "cuscus-agent"
@@ -69,6 +70,10 @@ fi
 exec {bin_folder}/real-agent
 """)
         agent.chmod(0o755)
+        return bin_folder
+
+    def fly_with_hostile_agent(self, mode):
+        bin_folder = self.programs_with_hostile_agent(mode)
         traces = Traces()
         with mock.patch.object(cuscus_run, "BIN", bin_folder), \
                 mock.patch.object(fault_support, "BIN", bin_folder), \
@@ -76,7 +81,7 @@ exec {bin_folder}/real-agent
             run.until_flying(0.5)
             traces.note(run)
             began = time.monotonic()
-            self.assertIn(run.wait(30), codes, run.stderr)
+            self.assertIn(run.wait(30), (0, 3), run.stderr)
             self.assertLess(time.monotonic() - began, 5 + 5)
             traces.check_gone(self, run)
             self.check_others(run)
@@ -127,6 +132,17 @@ exec {bin_folder}/real-agent
 
     def test_babble_on_the_control_socket(self):
         self.fly_with_hostile_agent("babble")
+
+    def test_never_ready(self):
+        bin_folder = self.programs_with_hostile_agent("deaf")
+        traces = Traces()
+        with mock.patch.object(cuscus_run, "BIN", bin_folder), \
+                mock.patch.object(fault_support, "BIN", bin_folder), \
+                Run(small_fleet("5 s"), "--no-page") as run:
+            self.assertEqual(run.wait(40), 1, run.stderr)
+            traces.check_gone(self, run)
+            self.assertIn("in vain for the agents to be ready", run.summary["end_reason"])
+            self.assertEqual(run.fidelity["verdict"], "INVALID")
 
     def fly_with_command(self, duration, arguments, **group):
         traces = Traces()

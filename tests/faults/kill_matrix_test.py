@@ -52,7 +52,7 @@ class KillMatrix(unittest.TestCase):
         self.fail(f"{victim} was always gone before it could be killed")
 
     def strike(self, run, traces, victim, phase, dice, attempt):
-        """Kills the victim; False when it had ended already, so that the next attempt is earlier."""
+        """Kills the victim, the earlier the more attempts. False when it had ended already."""
         program = f"cuscus-{victim}"
         pids = [run.process.pid]
         if phase != "set-up":
