@@ -147,7 +147,7 @@ EnvironmentCheck check_cores() {
   const std::string text = std::to_string(cores) + (cores == 1 ? " core" : " cores");
   if (cores < kComfortable) {
     return {"cores", Result::kWarning, text + ": netsim, the world and the programs share them",
-            "give it four or more for exact timing, or use --clock virtual"};
+            "give it four or more for exact timing"};
   }
   return {"cores", Result::kOk, text, ""};
 }
