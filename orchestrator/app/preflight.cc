@@ -37,7 +37,7 @@ void check_tun() {
 }
 
 std::filesystem::path check_own_programs() {
-  const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   for (const char* const program :
        {"cuscus-init", "cuscus-netsim", "cuscus-world", "cuscus-agent", "cuscus-gcs"}) {
     if (::access((folder / program).c_str(), X_OK) != 0) {

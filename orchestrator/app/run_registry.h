@@ -66,7 +66,7 @@ class RunRegistry {
   [[nodiscard]] std::vector<RegisteredRun> runs() const;
 
   /// Removes the entries of dead runs; returns their ids.
-  std::vector<std::string> sweep() const;
+  [[nodiscard]] std::vector<std::string> sweep() const;
 
  private:
   std::filesystem::path folder_;
