@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <string>
 
 #include "common/posix/check.h"
@@ -29,6 +31,9 @@ struct VisitResult {
 VisitResult visit(const Node& node, const std::vector<std::string>& arguments,
                   const std::optional<posix::ChildIdentity>& identity = {}) {
   const auto output = test::memory_file();
+  // ThreadSanitizer writes out on _exit() what the parent has not yet written.
+  std::cout.flush();
+  std::fflush(nullptr);
   const pid_t visitor = posix::check("fork", ::fork());
   if (visitor == 0) {
     ::dup2(output.get(), STDOUT_FILENO);
