@@ -3,9 +3,10 @@
 import os
 import pathlib
 import subprocess
+import time
 import unittest
 
-from cuscus_run import Run
+from cuscus_run import SCENARIOS, Run, pause
 from fault_support import private_registry, program_path, small_fleet
 
 HOGS = 4
@@ -21,6 +22,27 @@ def runs_of_others():
     """Runs and benchmarks on this machine, none of which is ours yet: hogs would ruin them."""
     return [entry.name for entry in pathlib.Path("/proc").iterdir() if entry.name.isdigit()
             and program_path(entry.name).name.startswith(("cuscus", "bench-", "ns3"))]
+
+
+def busy_share():
+    """Share of the processors' time that was used in the last second."""
+    def read():
+        fields = [int(n) for n in pathlib.Path("/proc/stat").read_text().split("\n")[0].split()[1:]]
+        return sum(fields), fields[3] + fields[4]
+    total, idle = read()
+    deadline = time.monotonic() + 1.0
+    while time.monotonic() < deadline:
+        pause()
+    total_later, idle_later = read()
+    return 1.0 - (idle_later - idle) / (total_later - total)
+
+
+def await_idle(limit_s=120):
+    """Waits until nothing else keeps the machine busy."""
+    deadline = time.monotonic() + limit_s
+    while (share := busy_share()) > 0.2:
+        if time.monotonic() > deadline:
+            raise AssertionError(f"the machine is {100 * share:.0f} % busy with something else")
 
 
 class Hogs:
@@ -79,14 +101,17 @@ class Hog(unittest.TestCase):
                 code = run.wait(LIMIT_S + 20)
             self.check_consistent(run, code)
 
-    def test_idle_machine_is_not_invalid(self):
-        load = float(pathlib.Path("/proc/loadavg").read_text().split()[0])
-        if load > 0.5 * len(os.sched_getaffinity(0)):
-            self.skipTest(f"the machine is not idle: load {load}")
-        with Run(small_fleet("5 s"), "--no-page") as run:
-            code = run.wait(60)
-            self.check_consistent(run, code)
-            self.assertNotEqual(run.fidelity["verdict"], "INVALID", run.stdout)
+    def test_idle_machine_is_valid(self):
+        verdicts = []
+        # A virtual machine's own host may disturb it: one of three flights has to be left alone.
+        while "VALID" not in verdicts and len(verdicts) < 3:
+            await_idle()
+            with Run(SCENARIOS / "default.json", "--no-page", "--duration", "20s") as run:
+                code = run.wait(60)
+                self.check_consistent(run, code)
+                verdicts.append(run.fidelity["verdict"])
+                print(run.stdout)
+        self.assertIn("VALID", verdicts)
 
 
 if __name__ == "__main__":
