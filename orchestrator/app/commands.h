@@ -27,7 +27,7 @@ struct RunArguments {
   std::optional<std::filesystem::path> out;  ///< Else runs/<run id>.
 };
 
-/// Loads the scenario with the command line's changes.
+/// Loads the scenario with the command line's changes, and looks for the programs that it names.
 [[nodiscard]] scenario::Scenario load(const ScenarioArguments& arguments);
 
 int run_command(const RunArguments& arguments);

@@ -158,7 +158,8 @@ void LiveRun::start_world() {
   proto::Configure configure;
   *configure.mutable_world() = plan_.world;
   world_->component().configure(given, configure);
-  await("the world to be ready", kReadyLimit, [&] { return world_->component().is_ready(); });
+  await([] { return "the world to be ready"; }, kReadyLimit,
+        [&] { return world_->component().is_ready(); });
   memories_.world_has_mapped();
 }
 
@@ -207,7 +208,8 @@ void LiveRun::start_netsim() {
   proto::Configure configure;
   *configure.mutable_radio() = plan_.radio;
   netsim_->component().configure(given, configure);
-  await("netsim to be ready", kReadyLimit, [&] { return netsim_->component().is_ready(); });
+  await([] { return "netsim to be ready"; }, kReadyLimit,
+        [&] { return netsim_->component().is_ready(); });
   memories_.netsim_has_mapped();
 }
 
@@ -223,7 +225,8 @@ void LiveRun::start_programs() {
                              .page_listener = settings_.page_listener.get()},
       [] {});
   crew_->launch_own();
-  await("the agents to be ready", kReadyLimit, [&] { return crew_->own_are_ready(); });
+  await([&] { return crew_->not_ready() + " to be ready"; }, kReadyLimit,
+        [&] { return crew_->own_are_ready(); });
   settings_.page_listener.reset();
 }
 
@@ -303,13 +306,13 @@ void LiveRun::check_heartbeats() {
   }
 }
 
-void LiveRun::await(const std::string& what, milliseconds limit,
+void LiveRun::await(const std::function<std::string()>& what, milliseconds limit,
                     const std::function<bool()>& done) {
   const auto deadline = steady_clock::now() + limit;
   while (!done()) {
     check_trouble();
     if (steady_clock::now() >= deadline) {
-      throw RunFailed{fmt::format("waited {} s in vain for {}", limit.count() / 1000, what)};
+      throw RunFailed{fmt::format("waited {} s in vain for {}", limit.count() / 1000, what())};
     }
     wait_step(std::min(deadline, steady_clock::now() + milliseconds{100}));
   }

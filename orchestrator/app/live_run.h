@@ -82,7 +82,7 @@ class LiveRun {
   void stop_all();
   void watch_signals();
   /// Runs the loop until `done`; throws RunFailed or RunInterrupted when the run cannot go on.
-  void await(const std::string& what, std::chrono::milliseconds limit,
+  void await(const std::function<std::string()>& what, std::chrono::milliseconds limit,
              const std::function<bool()>& done);
   /// Runs the loop until `done` or until `limit` has passed.
   bool settle(std::chrono::milliseconds limit, const std::function<bool()>& done);

@@ -236,10 +236,14 @@ void NodeCrew::configure(NodeProgram& program) {
   program.component->configure(given, configure);
 }
 
-bool NodeCrew::own_are_ready() const {
-  return std::all_of(programs_.begin(), programs_.end(), [](const NodeProgram& program) {
-    return !program.component || program.component->is_ready() || program.has_ended();
-  });
+std::string NodeCrew::not_ready() const {
+  std::string names;
+  for (const auto& program : programs_) {
+    if (program.component && !program.component->is_ready() && !program.has_ended()) {
+      names += (names.empty() ? "" : ", ") + program.name;
+    }
+  }
+  return names;
 }
 
 void NodeCrew::start(std::int64_t start_monotonic_ns) {

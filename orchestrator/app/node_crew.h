@@ -60,7 +60,9 @@ class NodeCrew {
   void launch_own();
   /// Starts the scenario's commands.
   void launch_commands();
-  [[nodiscard]] bool own_are_ready() const;
+  [[nodiscard]] bool own_are_ready() const { return not_ready().empty(); }
+  /// Names of our own programs that have not said Ready: "uav3, gcs".
+  [[nodiscard]] std::string not_ready() const;
 
   void start(std::int64_t start_monotonic_ns);
   /// Asks all to end: Stop to our own, SIGINT to commands.

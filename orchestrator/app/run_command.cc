@@ -10,7 +10,6 @@
 #include <random>
 
 #include "common/posix/check.h"
-#include "common/scenario/programs.h"
 #include "orchestrator/app/commands.h"
 #include "orchestrator/app/exit_code.h"
 #include "orchestrator/app/findings.h"
@@ -83,7 +82,6 @@ void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& 
 
 int run_command(const RunArguments& arguments) {
   const scenario::Scenario scenario = load(arguments.scenario);
-  scenario::check_programs(scenario, arguments.scenario.file.native(), kProgramPath);
   const Plan plan = make_plan(scenario);
   for (const auto& warning : plan.capacity.warnings) {
     spdlog::warn("{}", warning);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/scenario/programs.h"
 #include "orchestrator/app/commands.h"
 #include "orchestrator/app/exit_code.h"
 #include "orchestrator/plan/plan.h"
@@ -25,7 +26,9 @@ scenario::Scenario load(const ScenarioArguments& arguments) {
   for (const auto& text : arguments.set) {
     overrides.push_back(scenario::parse_override(text));
   }
-  return scenario::load_scenario(arguments.file, overrides);
+  auto scenario = scenario::load_scenario(arguments.file, overrides);
+  scenario::check_programs(scenario, arguments.file.native(), kProgramPath);
+  return scenario;
 }
 
 int check_command(const ScenarioArguments& arguments, bool json) {
