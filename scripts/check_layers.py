@@ -15,7 +15,7 @@ ALLOWED = {
     "common/geometry": {"common/units"},
     "common/scenario": {"common/units", "common/geometry"},
     "proto": set(),
-    "common/ipc": {"common/posix", "proto"},
+    "common/ipc": {"common/posix", "common/statistics", "proto"},
 }
 SHARED = set(ALLOWED)
 PURE = {"common/units", "common/random", "common/statistics", "common/geometry", "common/scenario"}

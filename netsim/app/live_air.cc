@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "common/ipc/duration_summary.h"
 #include "common/posix/check.h"
 #include "common/posix/monotonic_clock.h"
 #include "common/posix/resource_usage.h"
@@ -341,10 +342,10 @@ proto::RadioReport LiveAir::report() const {
   proto::RadioReport report;
   report.set_send_stamps(stamps_ ? "tc-bpf" : "read");
   report.set_scheduler(scheduler_);
-  *report.mutable_ingress_delay() = ingress_delay_.summary();
-  *report.mutable_release_lateness() = release_lateness_.summary();
+  *report.mutable_ingress_delay() = ipc::summary_of(ingress_delay_);
+  *report.mutable_release_lateness() = ipc::summary_of(release_lateness_);
   report.set_clamps(clamp_.count());
-  *report.mutable_clamp() = clamp_.summary();
+  *report.mutable_clamp() = ipc::summary_of(clamp_);
   report.set_events(air_.events());
   report.set_cpu_s(cpu_s_);
   std::uint64_t before_air = 0;

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "common/statistics/log2_histogram.h"
 #include "netsim/air/air.h"
-#include "netsim/app/duration_histogram.h"
 #include "netsim/app/ethernet.h"
 #include "netsim/app/frame_log.h"
 #include "netsim/app/frame_store.h"
@@ -123,9 +123,9 @@ class LiveAir final : private AirListener {
   std::uint32_t publish_next_{0};
   std::uint64_t ticks_{0};
 
-  DurationHistogram ingress_delay_;
-  DurationHistogram release_lateness_;
-  DurationHistogram clamp_;
+  statistics::Log2Histogram ingress_delay_;
+  statistics::Log2Histogram release_lateness_;
+  statistics::Log2Histogram clamp_;
   std::uint64_t unstamped_{0};
   std::string scheduler_;
   double cpu_s_{0.0};

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/ipc/duration_summary.h"
 #include "common/log/log.h"
 #include "common/posix/resource_usage.h"
 #include "common/statistics/log2_histogram.h"
@@ -39,19 +40,6 @@ class Heartbeat {
   std::int64_t next_look_ns_{std::numeric_limits<std::int64_t>::min()};
   std::int64_t next_beat_ns_{std::numeric_limits<std::int64_t>::min()};
 };
-
-proto::DurationSummary summary_of(const statistics::Log2Histogram& histogram) {
-  proto::DurationSummary summary;
-  summary.set_count(histogram.count());
-  summary.set_p50_ns(histogram.quantile_ns(0.5));
-  summary.set_p99_ns(histogram.quantile_ns(0.99));
-  summary.set_p999_ns(histogram.quantile_ns(0.999));
-  summary.set_max_ns(histogram.max_ns());
-  for (const std::uint64_t samples : histogram.octaves()) {
-    summary.add_log2_bins(samples);
-  }
-  return summary;
-}
 
 /// Waits for `deadline_ns` in naps, so that Stop and a dead orchestrator are seen meanwhile.
 bool wait_until(std::int64_t deadline_ns, Heartbeat& heartbeat, StepHost& host) {
@@ -108,7 +96,7 @@ proto::WorldReport run_steps(FleetSimulation& simulation, ipc::ChildSession& ses
   proto::WorldReport report;
   report.set_steps(simulation.steps());
   report.set_overruns(overruns);
-  *report.mutable_step_lateness() = summary_of(lateness);
+  *report.mutable_step_lateness() = ipc::summary_of(lateness);
   report.set_scheduler(host.scheduler());
   report.set_cpu_s(posix::process_cpu_s());
   return report;
