@@ -141,7 +141,7 @@ exec {bin_folder}/real-agent
                 Run(small_fleet("5 s"), "--no-page") as run:
             self.assertEqual(run.wait(40), 1, run.stderr)
             traces.check_gone(self, run)
-            self.assertIn("in vain for the agents to be ready", run.summary["end_reason"])
+            self.assertIn("in vain for uav1 to be ready", run.summary["end_reason"])
             self.assertEqual(run.fidelity["verdict"], "INVALID")
 
     def fly_with_command(self, duration, arguments, **group):
