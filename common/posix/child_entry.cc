@@ -63,7 +63,8 @@ void arrange_descriptors(const ChildEntry& entry, int failure_fd) noexcept {
 /// The system calls themselves: glibc's wrappers want every thread of the process to follow, and
 /// here glibc still believes in threads that only the parent has.
 bool switch_identity(const ChildEntry& entry) noexcept {
-  if (entry.ambient != 0 && ::prctl(PR_SET_KEEPCAPS, 1UL, 0UL, 0UL, 0UL) != 0) {
+  if ((entry.ambient | entry.until_exec) != 0 &&
+      ::prctl(PR_SET_KEEPCAPS, 1UL, 0UL, 0UL, 0UL) != 0) {
     return false;
   }
   return ::syscall(SYS_setgroups, 0UL, nullptr) == 0 &&
@@ -71,13 +72,14 @@ bool switch_identity(const ChildEntry& entry) noexcept {
          ::syscall(SYS_setresuid, entry.uid, entry.uid, entry.uid) == 0;
 }
 
-bool keep_only_ambient(CapabilityMask ambient) noexcept {
+bool keep_only(CapabilityMask ambient, CapabilityMask until_exec) noexcept {
   __user_cap_header_struct header{.version = _LINUX_CAPABILITY_VERSION_3, .pid = 0};
   std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> words{};
-  words[0].effective = words[0].permitted = words[0].inheritable =
-      static_cast<std::uint32_t>(ambient);
-  words[1].effective = words[1].permitted = words[1].inheritable =
-      static_cast<std::uint32_t>(ambient >> 32U);
+  const CapabilityMask now = ambient | until_exec;
+  words[0].effective = words[0].permitted = static_cast<std::uint32_t>(now);
+  words[1].effective = words[1].permitted = static_cast<std::uint32_t>(now >> 32U);
+  words[0].inheritable = static_cast<std::uint32_t>(ambient);
+  words[1].inheritable = static_cast<std::uint32_t>(ambient >> 32U);
   if (::syscall(SYS_capset, &header, words.data()) != 0) {
     return false;
   }
@@ -97,7 +99,7 @@ void drop_rights(const ChildEntry& entry, int failure_fd) noexcept {
   if (entry.switches_identity && !switch_identity(entry)) {
     fail(failure_fd, ChildStep::kIdentity);
   }
-  if (!keep_only_ambient(entry.ambient)) {
+  if (!keep_only(entry.ambient, entry.until_exec)) {
     fail(failure_fd, ChildStep::kCapabilities);
   }
 }

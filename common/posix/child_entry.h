@@ -55,6 +55,9 @@ struct ChildEntry {
   uid_t uid;
   gid_t gid;
   CapabilityMask ambient;
+  /// Kept up to the exec, which takes them away: what reaches a program in a folder that is closed
+  /// to its uid, such as a home. Needs switches_identity to a uid that is not root's.
+  CapabilityMask until_exec;
 };
 
 /// Turns the calling process, just cloned, into the program; never returns. Async-signal-safe.

@@ -76,12 +76,17 @@ struct Preparation {
   std::vector<const char*> executable_pointers;
   std::vector<ChildEntry::Limit> limits;
   CapabilityMask ambient{0};
+  CapabilityMask until_exec{0};
   UniqueFd null_device;
 };
 
 bool may_raise(int resource, rlim_t wanted) {
   rlimit limit{};
   return ::syscall(SYS_prlimit64, 0, resource, nullptr, &limit) == 0 && limit.rlim_max >= wanted;
+}
+
+bool switches_identity(const ChildIdentity& identity) {
+  return identity.uid != ::geteuid() || identity.gid != ::getegid();
 }
 
 void prepare_realtime(Preparation& prepared) {
@@ -116,6 +121,9 @@ Preparation prepare(const ChildSpecification& specification) {
   }
   if (specification.identity) {
     prepared.ambient = capability_mask(specification.identity->capabilities);
+    if (switches_identity(*specification.identity) && specification.identity->uid != 0) {
+      prepared.until_exec = effective_capabilities() & capability_bit(CAP_DAC_OVERRIDE);
+    }
   }
   if (specification.realtime) {
     prepare_realtime(prepared);
@@ -154,10 +162,11 @@ ChildEntry entry_of(const ChildSpecification& specification, const Preparation& 
       .own_session = specification.own_session,
       .limits = prepared.limits,
       .drops_rights = drops,
-      .switches_identity = drops && (uid != ::geteuid() || gid != ::getegid()),
+      .switches_identity = drops && switches_identity(*specification.identity),
       .uid = uid,
       .gid = gid,
-      .ambient = prepared.ambient};
+      .ambient = prepared.ambient,
+      .until_exec = prepared.until_exec};
 }
 
 std::string describe(ChildStep step, const ChildSpecification& specification) {

@@ -13,6 +13,8 @@
 namespace cuscus::posix {
 
 /// Whom a child runs as. All capabilities but those named are gone, and no exec can bring one back.
+/// The executable and the working directory are found with the parent's rights: a clone in a home
+/// that others may not enter works.
 struct ChildIdentity {
   uid_t uid{};
   gid_t gid{};

@@ -8,6 +8,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <filesystem>
 #include <string>
 
 #include "common/posix/check.h"
@@ -55,6 +56,29 @@ TEST_CASE("a program has the capabilities that it is given and no others") {
 
   // CAP_NET_RAW is number 13.
   CHECK(run.output == "CapPrm:\t0000000000002000\nCapEff:\t0000000000002000\n");
+}
+
+TEST_CASE("a program that only root can reach runs, and has no rights for it") {
+  CUSCUS_ROOT_ONLY();
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("cuscus-closed-" + std::to_string(::getpid()));
+  std::filesystem::create_directory(folder);
+  std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
+  const auto program = folder / "grep";
+  std::filesystem::copy_file("/usr/bin/grep", program);
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  Fleet fleet = lone_node();
+
+  const auto run = run_in(fleet.nodes()[0],
+                          {program.native(), "-E", "^(Uid|CapPrm|CapEff)", "/proc/self/status"});
+  const auto look = run_in(fleet.nodes()[0], {"ls", folder.native()});
+  std::filesystem::remove_all(folder);
+
+  const std::string id = std::to_string(node_uid(0));
+  CHECK(run.exited.error().empty());
+  CHECK(run.output == "Uid:\t" + id + "\t" + id + "\t" + id + "\t" + id +
+                          "\nCapPrm:\t0000000000000000\nCapEff:\t0000000000000000\n");
+  CHECK(look.exited.exit_code() != 0);
 }
 
 TEST_CASE("even root in a node has no rights there") {
