@@ -125,8 +125,11 @@ void check_placeholders(const Scenario& scenario, Problems& problems) {
   };
   for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
     const Group& group = scenario.fleet[i];
-    for (std::size_t argument = 0; argument < group.command.size(); ++argument) {
-      check(group.command[argument], group_path(i) + "/command/" + std::to_string(argument));
+    for (const auto& [key, program] :
+         {std::pair{"agent", &group.agent}, {"command", &group.command}}) {
+      for (std::size_t argument = 0; argument < program->size(); ++argument) {
+        check((*program)[argument], group_path(i) + '/' + key + '/' + std::to_string(argument));
+      }
     }
     for (const auto& [name, text] : group.environment) {
       check(text, group_path(i) + "/environment/" + name);

@@ -2,6 +2,9 @@
 
 #include <unistd.h>
 
+#include <optional>
+#include <utility>
+
 #include "common/scenario/scenario_error.h"
 
 namespace cuscus::scenario {
@@ -24,30 +27,35 @@ bool is_in(std::string_view search_path, const std::string& name) {
   return false;
 }
 
+/// What is wrong with a program; nothing when it is there, or known only in the run.
+std::optional<std::string> trouble_with(const std::vector<std::string>& program,
+                                        std::string_view search_path) {
+  if (program.empty() || program.front().find('{') != std::string::npos) {
+    return std::nullopt;
+  }
+  const std::string& name = program.front();
+  if (name.front() == '/' && !is_executable(name)) {
+    return '"' + name + "\" is not there or not executable; allowed: an executable file";
+  }
+  if (name.front() != '/' && !is_in(search_path, name)) {
+    return '"' + name + "\" is not in " + std::string{search_path} +
+           "; allowed: a program in one of these folders, or a path with a '/'";
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 void check_programs(const Scenario& scenario, const std::string& source,
                     std::string_view search_path) {
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
-    if (scenario.fleet[i].command.empty()) {
-      continue;
-    }
-    const std::string& name = scenario.fleet[i].command.front();
-    if (name.find('{') != std::string::npos) {
-      continue;
-    }
-    const std::string path = "/fleet/" + std::to_string(i) + "/command/0";
-    if (name.front() == '/' && !is_executable(name)) {
-      problems.push_back({source, path,
-                          '"' + name +
-                              "\" is not there or not executable; allowed: "
-                              "an executable file"});
-    } else if (name.front() != '/' && !is_in(search_path, name)) {
-      problems.push_back({source, path,
-                          '"' + name + "\" is not in " + std::string{search_path} +
-                              "; allowed: a program in one of these folders, or a "
-                              "path with a '/'"});
+    const Group& group = scenario.fleet[i];
+    for (const auto& [key, program] :
+         {std::pair{"agent", &group.agent}, {"command", &group.command}}) {
+      if (const auto trouble = trouble_with(*program, search_path)) {
+        problems.push_back({source, "/fleet/" + std::to_string(i) + '/' + key + "/0", *trouble});
+      }
     }
   }
   if (!problems.empty()) {

@@ -6,7 +6,7 @@
 
 namespace cuscus::scenario {
 
-/// Looks on this machine for the programs that the commands of `scenario` name, as the run will:
+/// Looks on this machine for the programs that `scenario` names, as the run will:
 /// absolute paths as they are, other names in `search_path` ("/usr/bin:/bin"). Executables whose
 /// name has a placeholder are left to the run.
 /// @throws ScenarioError with every program that is not there or not executable.

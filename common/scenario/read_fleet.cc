@@ -193,23 +193,31 @@ std::string resolved_executable(const std::string& executable, const std::string
   return (folder / relative).string();
 }
 
-void read_command(ObjectReader& reader, const std::filesystem::path& folder, Group& group) {
-  const json* value = reader.child("command");
-  if (value != nullptr && *value != "none") {
-    if (value->is_string()) {
-      reader.problem("command", shown(*value) +
-                                    " is one text; allowed: none, or an array of the program and "
-                                    "its arguments, such as [\"ping\", \"{gcs_ip}\"]");
-    } else {
-      group.command = reader.texts("command", kMaxArguments, kMaxArgumentBytes);
-      if (!group.command.empty()) {
-        group.command.front() = resolved_executable(
-            group.command.front(), reader.path_of("command") + "/0", folder, reader.problems());
-      } else if (value->is_array() && value->empty()) {
-        reader.problem("command", "is empty; allowed: none, or at least the program");
-      }
-    }
+/// A program and its arguments under `key`; nothing when the key is missing or says `standard`.
+std::vector<std::string> read_program(ObjectReader& reader, const std::string& key,
+                                      const std::string& standard,
+                                      const std::filesystem::path& folder) {
+  const json* value = reader.child(key);
+  if (value == nullptr || *value == standard) {
+    return {};
   }
+  if (value->is_string()) {
+    reader.problem(key, shown(*value) + " is one text; allowed: " + standard +
+                            ", or an array of the program and its arguments, such as "
+                            "[\"ping\", \"{gcs_ip}\"]");
+    return {};
+  }
+  auto program = reader.texts(key, kMaxArguments, kMaxArgumentBytes);
+  if (!program.empty()) {
+    program.front() =
+        resolved_executable(program.front(), reader.path_of(key) + "/0", folder, reader.problems());
+  } else if (value->is_array() && value->empty()) {
+    reader.problem(key, "is empty; allowed: " + standard + ", or at least the program");
+  }
+  return program;
+}
+
+void read_capabilities(ObjectReader& reader, Group& group) {
   group.capabilities = reader.texts("capabilities", kCapabilities.size(), 64);
   const std::vector<std::string> allowed(kCapabilities.begin(), kCapabilities.end());
   for (std::size_t i = 0; i < group.capabilities.size(); ++i) {
@@ -270,7 +278,12 @@ Group read_group(const json& value, std::size_t index, const std::filesystem::pa
   group.control_period = reader.duration("control_period", group.control_period, "1 ms", "1 s");
   group.telemetry_period =
       reader.duration("telemetry_period", group.telemetry_period, "10 ms", "60 s");
-  read_command(reader, folder, group);
+  group.agent = read_program(reader, "agent", "cuscus-agent", folder);
+  if (!group.agent.empty() && !group.autopilot) {
+    reader.problem("agent", "needs \"autopilot\": true; allowed: cuscus-agent");
+  }
+  group.command = read_program(reader, "command", "none", folder);
+  read_capabilities(reader, group);
   read_environment(reader, group);
   group.on_exit = reader.choice("on_exit", group.on_exit, kOnExitNames);
   reader.finish();

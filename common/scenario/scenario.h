@@ -179,10 +179,13 @@ struct Group {
   Neighbours neighbours;
   Duration control_period{std::chrono::milliseconds{5}};
   Duration telemetry_period{std::chrono::milliseconds{200}};
+  /// A program on the SDK and its arguments, which flies the UAV instead of cuscus-agent; as
+  /// `command` below. Empty: cuscus-agent.
+  std::vector<std::string> agent;
   /// The group's own program and its arguments, with placeholders; empty: none. The executable is
   /// absolute, or a name without '/' to be searched in PATH.
   std::vector<std::string> command;
-  std::map<std::string, std::string> environment;  ///< Values have placeholders too.
+  std::map<std::string, std::string> environment;  ///< Of both; values have placeholders.
   std::vector<std::string> capabilities;           ///< Of the command: "cap_net_raw", ...
   OnExit on_exit{OnExit::kMark};
 

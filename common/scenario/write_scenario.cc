@@ -162,6 +162,7 @@ Json json_of(const Group& group) {
         {"port", group.neighbours.port}}},
       {"control_period", text(group.control_period)},
       {"telemetry_period", text(group.telemetry_period)},
+      {"agent", group.agent.empty() ? Json("cuscus-agent") : Json(group.agent)},
       {"command", group.command.empty() ? Json("none") : Json(group.command)},
       {"environment", Json(group.environment)},
       {"capabilities", Json(group.capabilities)},

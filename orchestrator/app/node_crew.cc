@@ -144,7 +144,7 @@ posix::ChildIdentity NodeCrew::identity_of(const NodeProgram& program) const {
   }
   const uid_t own = node::node_uid(program.node);
   posix::ChildIdentity identity{.uid = own, .gid = own, .capabilities = program.plan->capabilities};
-  if (program.plan->kind == ProgramKind::kCommand) {
+  if (program.plan->from_scenario) {
     // What the user brings may live in folders that only the user can read, and its files should
     // belong to the user.
     const auto uid = number_in_environment("SUDO_UID");
@@ -181,7 +181,7 @@ void NodeCrew::launch(NodeProgram& program) {
   for (const auto& argument : plan.arguments) {
     launch.add_arguments(argument);
   }
-  if (plan.kind != ProgramKind::kCommand) {
+  if (!plan.from_scenario) {
     launch.set_arguments(0, (surroundings_.programs / plan.arguments.at(0)).native());
   }
   for (const auto& variable : plan.environment) {

@@ -149,16 +149,14 @@ class Planner {
         uav.sees_motion_capture =
             group.neighbours.source == scenario::NeighbourSource::kMotionCapture;
         plan_.motion_capture_memory = plan_.motion_capture_memory || uav.sees_motion_capture;
-        uav.programs.push_back({.kind = ProgramKind::kAgent,
-                                .arguments = {"cuscus-agent"},
-                                .environment = environment_of(uav),
-                                .capabilities = {},
-                                .on_exit = group.on_exit,
-                                .has_control_socket = true,
-                                .log_name = uav.name + "-agent.log"});
+        uav.programs.push_back(agent_program_of(group, member, uav));
       }
       if (!group.command.empty()) {
-        uav.programs.push_back(command_of(group, member, uav));
+        Program command = brought_program(group, group.command, member, uav);
+        command.kind = ProgramKind::kCommand;
+        command.capabilities = group.capabilities;
+        command.log_name = uav.name + "-command.log";
+        uav.programs.push_back(std::move(command));
       }
       plan_.nodes.push_back(std::move(uav));
     }
@@ -199,7 +197,24 @@ class Planner {
     return agent;
   }
 
-  Program command_of(const Group& group, std::uint32_t member, const NodePlan& uav) const {
+  Program agent_program_of(const Group& group, std::uint32_t member, const NodePlan& uav) const {
+    Program program;
+    if (group.agent.empty()) {
+      program.arguments = {"cuscus-agent"};
+      program.environment = environment_of(uav);
+      program.on_exit = group.on_exit;
+    } else {
+      program = brought_program(group, group.agent, member, uav);
+    }
+    program.kind = ProgramKind::kAgent;
+    program.has_control_socket = true;
+    program.log_name = uav.name + "-agent.log";
+    return program;
+  }
+
+  /// What the scenario brings for a UAV, with placeholders filled in.
+  Program brought_program(const Group& group, const std::vector<std::string>& arguments,
+                          std::uint32_t member, const NodePlan& uav) const {
     scenario::PlaceholderValues values;
     values.index = std::to_string(member);
     values.count = std::to_string(group.count);
@@ -214,8 +229,8 @@ class Planner {
     values.ip_of = [this](const std::string& name) { return address_of_name(name); };
 
     Program program;
-    program.kind = ProgramKind::kCommand;
-    for (const std::string& argument : group.command) {
+    program.from_scenario = true;
+    for (const std::string& argument : arguments) {
       program.arguments.push_back(expand(argument, values));
     }
     program.environment = environment_of(uav);
@@ -225,10 +240,8 @@ class Planner {
                     [&prefix](const std::string& entry) { return entry.starts_with(prefix); });
       program.environment.push_back(prefix + expand(text, values));
     }
-    program.capabilities = group.capabilities;
     program.on_exit = group.on_exit;
     program.working_directory = scenario_.folder.string();
-    program.log_name = uav.name + "-command.log";
     return program;
   }
 

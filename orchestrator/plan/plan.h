@@ -20,12 +20,13 @@ enum class ProgramKind { kAgent, kGroundStation, kCommand };
 /// A program to be started in a node.
 struct Program {
   ProgramKind kind{ProgramKind::kCommand};
-  /// arguments[0]: for a command an absolute path, or a name to be searched in PATH; for our own
-  /// programs "cuscus-agent" or "cuscus-gcs", which lie beside `cuscus`.
+  /// The scenario brings it: arguments[0] is an absolute path, or a name to be searched in PATH.
+  /// Otherwise it is "cuscus-agent" or "cuscus-gcs", which lie beside `cuscus`.
+  bool from_scenario{false};
   std::vector<std::string> arguments;
   std::vector<std::string> environment;   ///< KEY=VALUE, complete but for CUSCUS_CONTROL_FD.
   std::vector<std::string> capabilities;  ///< "cap_net_raw"
-  /// Of a command: the scenario's folder; of our own programs: empty, which is "/".
+  /// Of what the scenario brings: its folder; of our own programs: empty, which is "/".
   std::string working_directory{};
   scenario::OnExit on_exit{scenario::OnExit::kFail};
   bool has_control_socket{false};

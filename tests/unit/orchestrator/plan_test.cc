@@ -145,6 +145,23 @@ TEST_CASE("A command is given its own UAV's values, and its environment wins") {
   CHECK(environment.contains("CUSCUS_GCS_IP=10.42.0.3"));
 }
 
+TEST_CASE("An agent of one's own takes the place of ours, with socket and configuration") {
+  const Plan plan = plan_of(R"({"name": "t", "fleet": [
+      {"name": "a", "count": 2, "agent": ["./fly", "{index}"], "environment": {"ME": "{ip}"},
+       "capabilities": ["cap_net_raw"]}]})");
+
+  const NodePlan& node = plan.nodes.at(1);
+  REQUIRE(node.programs.size() == 1);
+  const Program& agent = node.programs[0];
+  CHECK(agent.kind == ProgramKind::kAgent);
+  CHECK(agent.from_scenario);
+  CHECK(agent.has_control_socket);
+  CHECK(agent.arguments == std::vector<std::string>{"/scenarios/fly", "1"});
+  CHECK(agent.capabilities.empty());
+  CHECK(std::count(agent.environment.begin(), agent.environment.end(), "ME=10.42.0.2") == 1);
+  CHECK(node.agent->node() == 1);
+}
+
 TEST_CASE("Each group is a formation of its own") {
   const Plan plan = plan_of(R"({"name": "t", "fleet": [
       {"name": "a", "count": 2},

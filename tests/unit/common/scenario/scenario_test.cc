@@ -83,7 +83,8 @@ TEST_CASE("The scenario written out in full is the same scenario") {
          "centre": ["-7.25 m", "1 km", "0 m"], "heading": "-90 deg"},
          "vehicle": {"model": "x4", "mass": "1500 g", "faithful": true},
          "mission": {"type": "circle", "centre": ["-7.25 m", "1 km"], "speed": "7 km/h"},
-         "neighbours": {"source": "motion-capture", "beacon_period": "1 s"}},
+         "neighbours": {"source": "motion-capture", "beacon_period": "1 s"},
+         "agent": ["./fly", "{index}"]},
         {"name": "b", "vehicle": {"model": "fixed"}, "command": ["./x/run", "{{}}", "{name}"],
          "environment": {"A": "{ip}"}, "capabilities": ["cap_net_raw"], "on_exit": "fail",
          "start": {"layout": "list", "positions": [["1 m", "2 m", "30 cm"]]}}],
@@ -302,6 +303,11 @@ TEST_CASE("Programs are looked for where the run will look") {
   CHECK_THROWS_WITH(check("./no-such-program"),
                     Catch::Contains("\"/scenarios/no-such-program\" is not there"));
   CHECK_THROWS_WITH(check("/etc/passwd"), Catch::Contains("not executable"));
+  CHECK_THROWS_WITH(
+      check_programs(parse(R"({"name": "t", "fleet": [{"agent": ["./no-such-agent"]}]})"),
+                     "flight.json", "/bin"),
+      Catch::StartsWith(
+          "flight.json: /fleet/0/agent/0: \"/scenarios/no-such-agent\" is not there"));
 }
 
 TEST_CASE("IPv4 networks are four small numbers and a prefix") {

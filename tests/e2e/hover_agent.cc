@@ -1,17 +1,15 @@
-// The example of docs/sdk.md, flown by the test below.
-#include <catch2/catch.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <optional>
 #include <string>
-#include <thread>
 
-#include "tests/unit/uav-agent/simulated_run.h"
-
-// [example]
 #include "common/ipc/child_session.h"
 #include "uav-agent/flight/autopilot.h"
 #include "uav-agent/sdk/periodic_timer.h"
 #include "uav-agent/sdk/sim/sim_session.h"
 
-namespace example {
+namespace {
 
 /// Takes off and hovers 3 m above where the vehicle stood, until the run ends.
 void hover(cuscus::ipc::ChildSession& child) {
@@ -42,36 +40,15 @@ void hover(cuscus::ipc::ChildSession& child) {
   session.finish(report);
 }
 
-}  // namespace example
-// [example]
-
-namespace {
-
-TEST_CASE("the SDK's example lives from its start to its report and drives its motors") {
-  cuscus::tests::SimulatedRun run;
-  cuscus::proto::AgentConfiguration configuration;
-  configuration.set_node(cuscus::tests::SimulatedRun::kNode);
-  run.configure(configuration);
-  run.publish_standing(0, 1);
-  std::jthread program{[&] {
-    cuscus::ipc::ChildSession child{std::move(run.program)};
-    example::hover(child);
-  }};
-
-  CHECK(run.orchestrator.receive().envelope.has_ready());
-  run.start();
-  // Its first word, by which its motors run: it takes off at once.
-  std::string state = run.orchestrator.receive().envelope.status().state();
-  run.stop();
-  cuscus::ipc::ControlSocket::Received last = run.orchestrator.receive();
-  while (last.envelope.has_status()) {
-    last = run.orchestrator.receive();
-  }
-
-  CHECK(state == "taking-off");
-  CHECK(last.envelope.report().agent().loops() > 0);
-  CHECK(run.actuators.command().value().motors[0] > 0.0);
-  CHECK(run.actuators.command().value().motors[0] <= 1.0);
-}
-
 }  // namespace
+
+int main() {
+  try {
+    auto child = cuscus::ipc::ChildSession::from_environment();
+    hover(child);
+    return EXIT_SUCCESS;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hover-agent: %s\n", error.what());
+    return EXIT_FAILURE;
+  }
+}
