@@ -105,6 +105,11 @@ FidelityInputs fidelity_inputs(const Plan& plan, const LiveRun& run, const RunFa
       if (const auto* const report = report_of(program); report && report->has_agent()) {
         inputs.agent_loops += report->agent().loops();
         inputs.agent_overruns += report->agent().overruns();
+        if (!program.plan->from_scenario) {
+          const auto commands = run.commands(program.node);
+          inputs.motor_stops += commands ? commands->timeouts : 0;
+          inputs.sensors_lost += report->agent().sensors_lost() ? 1U : 0U;
+        }
       }
     }
   }
@@ -129,19 +134,17 @@ RunOutcome run_outcome(const Plan& plan, const LiveRun& run, const Sampler& samp
       .nodes = {},
       .formation_error = sampler.formation_error(),
       .ground_station = {}};
-  const auto& fleet = run.memories().fleet_reader();
   const auto& radio = run.memories().radio_reader();
   for (const auto& node : plan.nodes) {
-    outcome.nodes.push_back({.index = node.index,
-                             .name = node.name,
-                             .role = node.role,
-                             .radio = radio ? radio->tally(node.index) : std::nullopt,
-                             .commands = fleet && node.role == NodeRole::kUav
-                                             ? fleet->commands(node.index)
-                                             : std::nullopt,
-                             .agent = {},
-                             .formation_error = sampler.formation_error(node.index),
-                             .programs = {}});
+    outcome.nodes.push_back(
+        {.index = node.index,
+         .name = node.name,
+         .role = node.role,
+         .radio = radio ? radio->tally(node.index) : std::nullopt,
+         .commands = node.role == NodeRole::kUav ? run.commands(node.index) : std::nullopt,
+         .agent = {},
+         .formation_error = sampler.formation_error(node.index),
+         .programs = {}});
   }
   if (run.crew() == nullptr) {
     return outcome;

@@ -246,6 +246,11 @@ void LiveRun::start_clock() {
 }
 
 void LiveRun::stop_all() {
+  if (const auto& fleet = memories_.fleet_reader()) {
+    for (const auto& node : plan_.nodes) {
+      commands_.push_back(fleet->commands(node.index));
+    }
+  }
   const std::string reason =
       end_.kind == FlightEnd::Kind::kCompleted ? "the flight is over" : "the run has ended early";
   if (crew_) {
@@ -380,6 +385,10 @@ std::vector<std::uint64_t> LiveRun::tap_drops() const {
     }
   }
   return drops;
+}
+
+std::optional<shm::CommandTally> LiveRun::commands(std::uint32_t node) const {
+  return node < commands_.size() ? commands_[node] : std::nullopt;
 }
 
 std::vector<pid_t> LiveRun::init_pids() const {

@@ -43,6 +43,10 @@ constexpr double kLongestDegraded_ms = 500.0;  // the time after which a neighbo
 constexpr double kSuspendedAllowed_ms = 1.0;   // nothing but the jitter of two clock readings
 constexpr double kSupervisionGap_ms = 1000.0;
 
+std::string with_unit(const std::string& number, const std::string& unit) {
+  return unit.empty() ? number : number + ' ' + unit;
+}
+
 class Judge {
  public:
   explicit Judge(const FidelityInputs& inputs) : inputs_{inputs} {}
@@ -126,6 +130,10 @@ class Judge {
   void agents() {
     share("agent_overruns", "control loops that ended after the next one was due",
           inputs_.agent_overruns, inputs_.agent_loops, kOverruns);
+    count("motor_stops", "times that motors stopped, their agent being late:", inputs_.motor_stops,
+          HUGE_VAL);
+    count("sensors_lost", "UAVs that landed, their readings being late:", inputs_.sensors_lost,
+          0.0);
   }
 
   void host() {
@@ -180,19 +188,30 @@ class Judge {
     add(std::move(check), text);
   }
 
+  /// What should never happen.
+  void count(const std::string& name, const std::string& what, std::uint64_t measured,
+             double degraded_up_to) {
+    limit({.name = name,
+           .description = what,
+           .unit = "",
+           .measured = static_cast<double>(measured),
+           .valid_up_to = 0.0,
+           .degraded_up_to = degraded_up_to});
+  }
+
   void limit(FidelityCheck check) {
     check.verdict = check.measured <= check.valid_up_to      ? Verdict::kValid
                     : check.measured <= check.degraded_up_to ? Verdict::kDegraded
                                                              : Verdict::kInvalid;
     const std::string text =
-        fmt::format("{} {:.3g} {}", check.description, check.measured, check.unit);
+        with_unit(fmt::format("{} {:.3g}", check.description, check.measured), check.unit);
     add(std::move(check), text);
   }
 
   void add(FidelityCheck check, const std::string& text) {
     if (check.verdict != Verdict::kValid) {
-      reasons_.emplace_back(check.verdict, fmt::format("{} (valid: up to {:.3g} {})", text,
-                                                       check.valid_up_to, check.unit));
+      const std::string allowed = with_unit(fmt::format("{:.3g}", check.valid_up_to), check.unit);
+      reasons_.emplace_back(check.verdict, fmt::format("{} (valid: up to {})", text, allowed));
     }
     fidelity_.verdict = std::max(fidelity_.verdict, check.verdict);
     fidelity_.checks.push_back(std::move(check));
@@ -263,6 +282,8 @@ Json to_json(const Fidelity& fidelity, const FidelityInputs& inputs) {
           {"tap_drops", inputs.tap_drops},
           {"agent_loops", inputs.agent_loops},
           {"agent_overruns", inputs.agent_overruns},
+          {"motor_stops", inputs.motor_stops},
+          {"sensors_lost", inputs.sensors_lost},
           {"suspended_s", to_seconds(inputs.suspended)},
           {"longest_supervision_gap_s", to_seconds(inputs.longest_supervision_gap)}};
 }

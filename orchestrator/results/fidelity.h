@@ -28,6 +28,8 @@ struct FidelityInputs {
   std::uint64_t tap_drops{0};
   std::uint64_t agent_loops{0};  ///< Of all agents together.
   std::uint64_t agent_overruns{0};
+  std::uint64_t motor_stops{0};   ///< For want of a command from one of our agents, in time.
+  std::uint64_t sensors_lost{0};  ///< Our agents that have landed for want of readings.
   /// Growth of CLOCK_BOOTTIME - CLOCK_MONOTONIC: the time for which the host was suspended.
   SimClock::duration suspended{};
   /// Longest time for which `cuscus` itself did not run.

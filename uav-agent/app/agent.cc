@@ -195,6 +195,8 @@ proto::AgentReport Agent::report() const {
   const auto reason = autopilot_.failsafe_reason();
   report.set_failsafes(reason == flight::FailsafeReason::kNone ? 0 : 1);
   report.set_last_failsafe_reason(std::string{flight::name(reason)});
+  report.set_sensors_lost(reason == flight::FailsafeReason::kImuLost ||
+                          reason == flight::FailsafeReason::kMotionCaptureLost);
   return report;
 }
 

@@ -68,6 +68,10 @@ void set_steps(FidelityInputs& inputs, const proto::DurationSummary& summary) {
 }
 
 const std::vector<Case> kCases{
+    {"a UAV whose motors stopped once", [](auto& in) { in.motor_stops = 1; }, Verdict::kDegraded,
+     "times that motors stopped, their agent being late: 1 (valid: up to 0)"},
+    {"a UAV that landed for want of readings", [](auto& in) { in.sensors_lost = 1; },
+     Verdict::kInvalid, "UAVs that landed, their readings being late: 1 (valid: up to 0)"},
     {"one stall of 25 ms in a minute",
      [](auto& in) {
        set_release(in, durations({{14, 119'950}, {22, 20}, {24, 30}}, 25'000'000));

@@ -141,6 +141,7 @@ TEST_CASE("a failsafe is reported with its reason") {
 
   CHECK(agent.report().final_state() == "failsafe");
   CHECK(agent.report().failsafes() == 1);
+  CHECK(agent.report().sensors_lost());
   CHECK_FALSE(agent.report().last_failsafe_reason().empty());
 }
 
