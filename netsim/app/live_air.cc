@@ -44,6 +44,8 @@ constexpr std::int64_t kService_ns = 20 * kMicrosecond;
 constexpr std::int64_t kSlowestService_ns = kMillisecond;
 /// Events run in a row while a copy waits to be written.
 constexpr int kEventBudget = 64;
+/// Patience with a stamp that is being written: longer, and its writer has lost its core.
+constexpr std::int64_t kStampWrite_ns = 50 * kMicrosecond;
 /// A frame that has not come out of its TAP after this long never will.
 constexpr std::int64_t kPayloadTimeout_ns = 200 * kMillisecond;
 
@@ -151,11 +153,19 @@ void LiveAir::step(LiveOwner& owner) {
   }
 }
 
-/// Every frame with a stamp at or before an event is known before that event runs.
+/// Every frame with a stamp at or before an event is known before that event runs. The clock is
+/// read first: what is stamped after that is later than any event that may run.
 void LiveAir::run_due_events() {
+  const std::int64_t patience_ns = now_ns() + kStampWrite_ns;
   for (int budget = kEventBudget; budget > 0; --budget) {
+    const SimTime limit = sim_time(now_ns());
     drain_stamps();
-    if (!air_.run_next(sim_time(now_ns()))) {
+    while (stamps_ && stamps_->reader().blocked() && now_ns() < patience_ns &&
+           air_.next_event().value_or(SimTime::max()) <= limit) {
+      relax();
+      drain_stamps();
+    }
+    if (!air_.run_next(limit)) {
       return;
     }
   }
