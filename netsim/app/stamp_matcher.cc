@@ -44,29 +44,22 @@ void StampMatcher::expect(std::uint32_t token, const shm::SendStamp& stamp) {
 }
 
 StampMatcher::Match StampMatcher::match(std::span<const std::uint8_t> frame) {
-  for (std::size_t i = 0; i < stamps_.size(); ++i) {
-    const shm::SendStamp& stamp = stamps_[i].stamp;
-    if (stamp.frame_bytes == frame.size() && same_head(stamp, frame)) {
-      const std::uint32_t token = stamps_[i].token;
-      const auto lost = drop_first(i);
-      stamps_.pop_front();
-      return {.token = token, .lost = lost};
-    }
+  const auto end = stamps_.begin() + static_cast<std::ptrdiff_t>(std::min(stamps_.size(), kDepth));
+  const auto own = std::find_if(stamps_.begin(), end, [&](const Expected& expected) {
+    return expected.stamp.frame_bytes == frame.size() && same_head(expected.stamp, frame);
+  });
+  if (own == end) {
+    return {.token = std::nullopt, .lost = {}};
   }
-  return {.token = std::nullopt, .lost = {}};
+  const Expected found = *own;
+  stamps_.erase(own);
+  const std::uint64_t sent_ns = found.stamp.monotonic_ns;
+  return {.token = found.token, .lost = expire(sent_ns - std::min(sent_ns, kOvertaking_ns))};
 }
 
 std::span<const std::uint32_t> StampMatcher::expire(std::uint64_t monotonic_ns) {
-  std::size_t count = 0;
-  while (count < stamps_.size() && stamps_[count].stamp.monotonic_ns < monotonic_ns) {
-    ++count;
-  }
-  return drop_first(count);
-}
-
-std::span<const std::uint32_t> StampMatcher::drop_first(std::size_t count) {
   lost_.clear();
-  for (; count > 0; --count) {
+  while (!stamps_.empty() && stamps_.front().stamp.monotonic_ns < monotonic_ns) {
     lost_.push_back(stamps_.front().token);
     stamps_.pop_front();
   }

@@ -12,9 +12,16 @@
 namespace cuscus::netsim {
 
 /// Finds for each frame that comes out of one node's TAP the stamp that announced it. Frames come
-/// in the order of their stamps, but the kernel may lose some on the way, and some carry no stamp.
+/// nearly in the order of their stamps: two processors that send at once may swap theirs between
+/// the stamp and the TAP. The kernel may lose some on the way, and some carry no stamp.
 class StampMatcher {
  public:
+  /// A frame stamped this much earlier than one that came after all was lost, not overtaken.
+  static constexpr std::uint64_t kOvertaking_ns = 5'000'000;
+  /// Stamps among which a frame's own is looked for. A TAP holds 1000 frames; beyond this lie those
+  /// of a node that floods, whose frames then count as unstamped.
+  static constexpr std::size_t kDepth = 4096;
+
   /// A stamp was read; `token` is the caller's name for the frame to come.
   void expect(std::uint32_t token, const shm::SendStamp& stamp);
 
@@ -25,7 +32,7 @@ class StampMatcher {
   };
 
   /// A frame came out of the TAP. The earliest stamp of its length and head is its own; frames of
-  /// stamps before that one were lost.
+  /// stamps kOvertaking_ns before that one were lost.
   [[nodiscard]] Match match(std::span<const std::uint8_t> frame);
 
   /// Gives up on frames stamped before `monotonic_ns`; valid until the next call.
@@ -38,8 +45,6 @@ class StampMatcher {
     std::uint32_t token;
     shm::SendStamp stamp;
   };
-
-  std::span<const std::uint32_t> drop_first(std::size_t count);
 
   std::deque<Expected> stamps_;
   std::vector<std::uint32_t> lost_;

@@ -34,16 +34,46 @@ TEST_CASE("frames meet their stamps in order") {
   CHECK(matcher.expected() == 0);
 }
 
-TEST_CASE("a frame further on in the line tells that those before it were lost") {
+TEST_CASE("a frame tells that those sent long before it were lost") {
+  constexpr std::uint64_t kLater_ns = 1 + StampMatcher::kOvertaking_ns;
   StampMatcher matcher;
-  matcher.expect(1, stamp_of(frame('a')));
-  matcher.expect(2, stamp_of(frame('b')));
-  matcher.expect(3, stamp_of(frame('c')));
+  matcher.expect(1, stamp_of(frame('a'), 0));
+  matcher.expect(2, stamp_of(frame('b'), 0));
+  matcher.expect(3, stamp_of(frame('c'), 1));
+  matcher.expect(4, stamp_of(frame('d'), kLater_ns));
 
-  const auto match = matcher.match(frame('c'));
+  const auto match = matcher.match(frame('d'));
 
-  CHECK(match.token == 3U);
+  CHECK(match.token == 4U);
   CHECK(tokens(match.lost) == std::vector<std::uint32_t>{1, 2});
+  CHECK(matcher.match(frame('c')).token == 3U);
+}
+
+TEST_CASE("two frames that changed places behind their stamps both meet them") {
+  StampMatcher matcher;
+  matcher.expect(1, stamp_of(frame('a'), 1'000));
+  matcher.expect(2, stamp_of(frame('b'), 2'000));
+
+  const auto first = matcher.match(frame('b'));
+  CHECK(first.token == 2U);
+  CHECK(first.lost.empty());
+  const auto second = matcher.match(frame('a'));
+
+  CHECK(second.token == 1U);
+  CHECK(second.lost.empty());
+  CHECK(matcher.expected() == 0);
+}
+
+TEST_CASE("a stamp is looked for within a bounded number of stamps") {
+  StampMatcher matcher;
+  for (std::uint32_t i = 0; i < StampMatcher::kDepth; ++i) {
+    matcher.expect(i, stamp_of(frame('a')));
+  }
+  matcher.expect(StampMatcher::kDepth, stamp_of(frame('b')));
+
+  CHECK_FALSE(matcher.match(frame('b')).token);
+  CHECK(matcher.match(frame('a')).token == 0U);
+  CHECK(matcher.match(frame('b')).token == StampMatcher::kDepth);
 }
 
 TEST_CASE("a frame without stamp leaves the stamps alone") {
