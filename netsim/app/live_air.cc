@@ -46,8 +46,6 @@ constexpr std::int64_t kSlowestService_ns = kMillisecond;
 constexpr int kEventBudget = 64;
 /// Patience with a stamp that is being written: longer, and its writer has lost its core.
 constexpr std::int64_t kStampWrite_ns = 50 * kMicrosecond;
-/// A frame that has not come out of its TAP after this long never will.
-constexpr std::int64_t kPayloadTimeout_ns = 200 * kMillisecond;
 
 enum class Wake : std::uint32_t { kOwner = 0, kStamps = 1, kTaps = 2 };
 
@@ -284,13 +282,7 @@ void LiveAir::housekeep(LiveOwner& owner, std::int64_t now) {
   housekeep_at_ = now + kHousekeeping_ns;
   if (stamps_) {
     service_taps();  // frames that no stamp announced
-    const auto deadline =
-        static_cast<std::uint64_t>(std::max<std::int64_t>(0, start_ns_ + now - kPayloadTimeout_ns));
-    for (Port& port : ports_) {
-      if (port.matcher.expected() > 0) {
-        lost(port.matcher.expire(deadline));
-      }
-    }
+    give_up_lost_frames(now);
   }
   const std::uint32_t slice = (air_.node_count() + kTicksPerPublication - 1) / kTicksPerPublication;
   publish(publish_next_, slice);

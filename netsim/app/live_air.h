@@ -65,6 +65,7 @@ class LiveAir final : private AirListener {
     TapPort tap;
     StampMatcher matcher;
     std::vector<std::uint8_t> held;  ///< A frame that waits for its stamp to be written.
+    bool emptied{true};              ///< The last read_tap() left nothing behind.
     std::uint64_t malformed{0};
     std::uint64_t before_air{0};
     std::uint64_t lost_interface{0};
@@ -91,6 +92,7 @@ class LiveAir final : private AirListener {
   bool take(std::uint32_t node, std::span<const std::uint8_t> bytes);
   void arrived(std::uint32_t frame, std::span<const std::uint8_t> bytes);
   void lost(std::span<const std::uint32_t> frames);
+  void give_up_lost_frames(std::int64_t now);
   void write_one_copy();
 
   void housekeep(LiveOwner& owner, std::int64_t now);

@@ -14,6 +14,8 @@ namespace {
 
 /// Frames read from one TAP in a row: a node that floods must not keep the others waiting.
 constexpr int kReadBudget = 32;
+/// A frame that has not come out of its TAP after this long never will.
+constexpr std::int64_t kPayloadTimeout_ns = 200'000'000;
 
 }  // namespace
 
@@ -96,6 +98,7 @@ bool LiveAir::read_tap(std::uint32_t node) {
   if (ports_[node].tap.fd() < 0) {
     return false;
   }
+  ports_[node].emptied = false;
   if (!ports_[node].held.empty()) {
     std::vector<std::uint8_t> held;
     held.swap(ports_[node].held);
@@ -107,6 +110,7 @@ bool LiveAir::read_tap(std::uint32_t node) {
   for (int budget = kReadBudget; budget > 0; --budget) {
     const auto bytes = ports_[node].tap.read(buffer_);
     if (!bytes) {
+      ports_[node].emptied = true;
       return budget < kReadBudget;
     }
     if (!take(node, *bytes)) {
@@ -158,6 +162,23 @@ void LiveAir::arrived(std::uint32_t frame, std::span<const std::uint8_t> bytes) 
   late_copies_ -= live.late.size();
   copies_.insert(copies_.begin(), live.late.begin(), live.late.end());
   live.late.clear();
+}
+
+/// Gives up on frames that were stamped long ago and are in no TAP. After a stall of our own there
+/// may be many to read first.
+void LiveAir::give_up_lost_frames(std::int64_t now) {
+  const auto deadline =
+      static_cast<std::uint64_t>(std::max<std::int64_t>(0, start_ns_ + now - kPayloadTimeout_ns));
+  for (std::uint32_t node = 0; node < ports_.size(); ++node) {
+    StampMatcher& matcher = ports_[node].matcher;
+    if (!matcher.overdue(deadline)) {
+      continue;
+    }
+    read_tap(node);
+    if (ports_[node].emptied) {
+      lost(matcher.expire(deadline));
+    }
+  }
 }
 
 /// Frames that were stamped and will never come.

@@ -59,7 +59,7 @@ StampMatcher::Match StampMatcher::match(std::span<const std::uint8_t> frame) {
 
 std::span<const std::uint32_t> StampMatcher::expire(std::uint64_t monotonic_ns) {
   lost_.clear();
-  while (!stamps_.empty() && stamps_.front().stamp.monotonic_ns < monotonic_ns) {
+  while (overdue(monotonic_ns)) {
     lost_.push_back(stamps_.front().token);
     stamps_.pop_front();
   }

@@ -35,6 +35,10 @@ class StampMatcher {
   /// stamps kOvertaking_ns before that one were lost.
   [[nodiscard]] Match match(std::span<const std::uint8_t> frame);
 
+  /// Whether a frame stamped before `monotonic_ns` is still expected.
+  [[nodiscard]] bool overdue(std::uint64_t monotonic_ns) const {
+    return !stamps_.empty() && stamps_.front().stamp.monotonic_ns < monotonic_ns;
+  }
   /// Gives up on frames stamped before `monotonic_ns`; valid until the next call.
   [[nodiscard]] std::span<const std::uint32_t> expire(std::uint64_t monotonic_ns);
 

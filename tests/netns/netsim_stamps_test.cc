@@ -181,5 +181,32 @@ TEST_CASE("a flood fills the sender's own queue, and another node's frames still
   CHECK(fleet.air().tally(1).dropped_queue_full == 0);
 }
 
+TEST_CASE("frames that were not read during a stall are not taken for lost") {
+  Stamping stamping;
+  TapFleet fleet{2, [&](std::vector<TapNode>& nodes) { return stamping.attach(nodes); }};
+  if (!stamping.missing.empty()) {
+    WARN("skipped: " << stamping.missing);
+    return;
+  }
+  constexpr int kFrames = 400;  // more than are read at once, fewer than the TAP or the MAC holds
+
+  fleet.stall(300'000'000, [&] {
+    for (int i = 0; i < kFrames; ++i) {
+      fleet.send(0, test_address(255), "while nobody reads");
+    }
+  });
+  fleet.send(0, test_address(255), "last");
+  std::string text = "while nobody reads";
+  while (text == "while nobody reads") {
+    text = fleet.receive(1);
+  }
+  CHECK(text == "last");
+  fleet.stop();
+
+  CHECK(fleet.air().report().lost_before_air() == 0);
+  CHECK(fleet.air().report().unstamped() == 0);
+  CHECK(fleet.air().tally(0).offered == kFrames + 1);
+}
+
 }  // namespace
 }  // namespace cuscus::netsim

@@ -144,6 +144,15 @@ class TapFleet final : public LiveOwner {
     return {buffer.data(), static_cast<std::size_t>(bytes)};
   }
 
+  /// Keeps the emulator's thread from its work for `duration_ns`; `meanwhile` runs at the
+  /// beginning.
+  void stall(std::int64_t duration_ns, const std::function<void()>& meanwhile) {
+    stall_ns_ = duration_ns;
+    stall_ns_.wait(duration_ns);
+    meanwhile();
+    stalled_.wait(true);
+  }
+
   [[nodiscard]] std::vector<TapNode>& nodes() { return nodes_; }
   [[nodiscard]] const LiveAir& air() const { return *air_; }
   [[nodiscard]] shm::RadioMemoryReader memory() const {
@@ -160,6 +169,15 @@ class TapFleet final : public LiveOwner {
   void beat(SimTime /*now*/) override {
     beating_ = true;
     beating_.notify_all();
+    if (stall_ns_ > 0) {
+      const std::int64_t end_ns = posix::monotonic_now_ns() + stall_ns_;
+      stalled_ = true;
+      stall_ns_ = 0;
+      stall_ns_.notify_all();
+      posix::sleep_until_monotonic(end_ns);
+      stalled_ = false;
+      stalled_.notify_all();
+    }
   }
 
  private:
@@ -181,6 +199,8 @@ class TapFleet final : public LiveOwner {
   posix::UniqueFd wake_{posix::check("eventfd", ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK))};
   std::optional<LiveAir> air_;
   std::atomic<bool> beating_{false};
+  std::atomic<std::int64_t> stall_ns_{0};
+  std::atomic<bool> stalled_{false};
   std::thread thread_;
 };
 
