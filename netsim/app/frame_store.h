@@ -4,16 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "common/units/sim_time.h"
+#include "netsim/app/due_copies.h"
 
 namespace cuscus::netsim {
-
-/// A copy of a frame that is due at a receiver.
-struct DueCopy {
-  std::uint32_t frame;
-  std::uint32_t receiver;
-  SimTime due;
-};
 
 /// A frame between its send and the last copy of it.
 struct LiveFrame {

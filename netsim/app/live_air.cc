@@ -232,7 +232,7 @@ void LiveAir::delivered(const Delivery& delivery) {
     return;
   }
   ++frame.copies;
-  copies_.push_back({.frame = number, .receiver = delivery.receiver, .due = delivery.time});
+  copies_.add({.frame = number, .receiver = delivery.receiver, .due = delivery.time});
 }
 
 void LiveAir::finished(const FrameReport& report) {
@@ -253,8 +253,7 @@ void LiveAir::finished(const FrameReport& report) {
 }
 
 void LiveAir::write_one_copy() {
-  const DueCopy copy = copies_.front();
-  copies_.pop_front();
+  const DueCopy copy = copies_.take_first();
   LiveFrame& frame = frames_[copy.frame];
   if (frame.payload == LiveFrame::Payload::kAwaited) {
     read_tap(frame.node);

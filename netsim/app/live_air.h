@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +8,7 @@
 
 #include "common/statistics/log2_histogram.h"
 #include "netsim/air/air.h"
+#include "netsim/app/due_copies.h"
 #include "netsim/app/ethernet.h"
 #include "netsim/app/frame_log.h"
 #include "netsim/app/frame_store.h"
@@ -111,7 +111,7 @@ class LiveAir final : private AirListener {
   std::int64_t start_ns_{0};
   bool stop_{false};
   FrameStore frames_;
-  std::deque<DueCopy> copies_;
+  DueCopies copies_;
   std::uint64_t late_copies_{0};  ///< In LiveFrame::late, of all frames.
   std::uint64_t awaited_{0};      ///< Frames whose payload has not been read.
   std::uint32_t held_{0};

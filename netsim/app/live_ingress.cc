@@ -160,7 +160,9 @@ void LiveAir::arrived(std::uint32_t frame, std::span<const std::uint8_t> bytes) 
   }
   live.bytes.assign(bytes.begin(), bytes.end());
   late_copies_ -= live.late.size();
-  copies_.insert(copies_.begin(), live.late.begin(), live.late.end());
+  for (const DueCopy& copy : live.late) {
+    copies_.add(copy);
+  }
   live.late.clear();
 }
 
