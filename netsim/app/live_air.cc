@@ -137,7 +137,8 @@ void LiveAir::step(LiveOwner& owner) {
   const std::int64_t now = now_ns();
   if (stamps_ && (awaited_ > 0 || held_ > 0) && now >= service_at_) {
     // Frames that the kernel lost on their way are asked for less and less often.
-    service_ns_ = service_taps() ? kService_ns : std::min(2 * service_ns_, kSlowestService_ns);
+    service_ns_ =
+        service_taps() ? kService_ns : std::clamp(2 * service_ns_, kService_ns, kSlowestService_ns);
     service_at_ = now_ns() + service_ns_;
   }
   if (!stamps_ && !copies_.empty()) {
@@ -174,9 +175,7 @@ void LiveAir::wait(LiveOwner& owner, std::int64_t now) {
     return;
   }
   std::int64_t spin_from = housekeep_at_;
-  if (late_copies_ > 0) {
-    spin_from = now;
-  } else if (const auto bound = air_.next_delivery_bound()) {
+  if (const auto bound = air_.next_delivery_bound()) {
     const std::int64_t spin = now - slept_at_ > kLongSpin_ns ? kShortSpin_ns : kSpin_ns;
     spin_from = std::min(spin_from, to_ns(*bound) - spin);
   }
@@ -261,7 +260,9 @@ void LiveAir::write_one_copy() {
   LiveFrame& again = frames_[copy.frame];  // reading may have added frames
   if (again.payload == LiveFrame::Payload::kAwaited) {
     again.late.push_back(copy);
-    ++late_copies_;
+    // Looked for at once and often to begin with; one that the kernel lost, ever more seldom.
+    service_ns_ = kService_ns;
+    service_at_ = now_ns() + service_ns_;
     return;
   }
   Port& port = ports_[copy.receiver];

@@ -112,8 +112,7 @@ class LiveAir final : private AirListener {
   bool stop_{false};
   FrameStore frames_;
   DueCopies copies_;
-  std::uint64_t late_copies_{0};  ///< In LiveFrame::late, of all frames.
-  std::uint64_t awaited_{0};      ///< Frames whose payload has not been read.
+  std::uint64_t awaited_{0};  ///< Frames whose payload has not been read.
   std::uint32_t held_{0};
   std::vector<std::uint8_t> buffer_;
 

@@ -159,7 +159,6 @@ void LiveAir::arrived(std::uint32_t frame, std::span<const std::uint8_t> bytes) 
     return;
   }
   live.bytes.assign(bytes.begin(), bytes.end());
-  late_copies_ -= live.late.size();
   for (const DueCopy& copy : live.late) {
     copies_.add(copy);
   }
@@ -194,7 +193,6 @@ void LiveAir::lost(std::span<const std::uint32_t> frames) {
       ++ports_[copy.receiver].lost_interface;
       --live.copies;
     }
-    late_copies_ -= live.late.size();
     live.late.clear();
     frames_.drop_if_over(frame);
   }
