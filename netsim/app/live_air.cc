@@ -44,6 +44,9 @@ constexpr std::int64_t kService_ns = 20 * kMicrosecond;
 constexpr std::int64_t kSlowestService_ns = kMillisecond;
 /// Events run in a row while a copy waits to be written.
 constexpr int kEventBudget = 64;
+/// A copy that is later than this is not written: it would only make the others later still. Such a
+/// run is INVALID in any case (docs/fidelity.md).
+constexpr std::int64_t kLatestRelease_ns = 1'000 * kMillisecond;
 /// Patience with a stamp that is being written: longer, and its writer has lost its core.
 constexpr std::int64_t kStampWrite_ns = 50 * kMicrosecond;
 
@@ -253,12 +256,13 @@ void LiveAir::finished(const FrameReport& report) {
 
 void LiveAir::write_one_copy() {
   const DueCopy copy = copies_.take_first();
+  const bool too_late = now_ns() - to_ns(copy.due) > kLatestRelease_ns;
   LiveFrame& frame = frames_[copy.frame];
-  if (frame.payload == LiveFrame::Payload::kAwaited) {
+  if (frame.payload == LiveFrame::Payload::kAwaited && !too_late) {
     read_tap(frame.node);
   }
   LiveFrame& again = frames_[copy.frame];  // reading may have added frames
-  if (again.payload == LiveFrame::Payload::kAwaited) {
+  if (again.payload == LiveFrame::Payload::kAwaited && !too_late) {
     again.late.push_back(copy);
     // Looked for at once and often to begin with; one that the kernel lost, ever more seldom.
     service_ns_ = kService_ns;
@@ -270,7 +274,7 @@ void LiveAir::write_one_copy() {
     ++port.lost_interface;
   } else {
     release_lateness_.add(now_ns() - to_ns(copy.due));
-    if (!port.tap.write(again.bytes)) {
+    if (too_late || !port.tap.write(again.bytes)) {
       ++port.lost_interface;
     }
   }

@@ -30,7 +30,8 @@ struct RadioTally {
   std::uint64_t lost_noise;            ///< Detected, decoding failed without interference.
   std::uint64_t lost_collision;        ///< Decoding or detection failed under interference.
   std::uint64_t lost_half_duplex;      ///< The node was transmitting.
-  std::uint64_t lost_interface;  ///< Received, but the interface did not take it (down, full).
+  /// Received, but the interface did not take it (down, full), or netsim was over 1 s late.
+  std::uint64_t lost_interface;
 };
 
 /// How well the emulator keeps up.

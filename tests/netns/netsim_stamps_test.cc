@@ -208,5 +208,23 @@ TEST_CASE("frames that were not read during a stall are not taken for lost") {
   CHECK(fleet.air().tally(0).offered == kFrames + 1);
 }
 
+TEST_CASE("a copy that is over a second late is dropped and counted, and those after it come") {
+  Stamping stamping;
+  TapFleet fleet{2, [&](std::vector<TapNode>& nodes) { return stamping.attach(nodes); }};
+  if (!stamping.missing.empty()) {
+    WARN("skipped: " << stamping.missing);
+    return;
+  }
+
+  fleet.stall(1'100'000'000, [&] { fleet.send(0, test_address(255), "too late"); });
+  fleet.send(0, test_address(255), "in time");
+
+  CHECK(fleet.receive(1) == "in time");
+  fleet.stop();
+  CHECK(fleet.air().tally(1).lost_interface == 1);
+  CHECK(fleet.air().tally(1).received == 1);
+  CHECK(fleet.air().report().release_lateness().max_ns() > 1'000'000'000);
+}
+
 }  // namespace
 }  // namespace cuscus::netsim
