@@ -128,7 +128,10 @@ void LiveAir::forget_the_past() {
     while (port.tap.fd() >= 0 && port.tap.read(buffer_)) {
     }
   }
-  while (stamps_ && stamps_->reader().next()) {
+  if (stamps_) {
+    const std::uint64_t end = stamps_->reader().end();
+    while (stamps_->reader().next(end)) {
+    }
   }
 }
 
@@ -240,6 +243,7 @@ void LiveAir::delivered(const Delivery& delivery) {
 void LiveAir::finished(const FrameReport& report) {
   const auto number = static_cast<std::uint32_t>(report.id);
   LiveFrame& frame = frames_[number];
+  --ports_[frame.node].outstanding;
   if (log_) {
     log_->add({.sent_ns = frame.sent_ns,
                .node = frame.node,
@@ -304,12 +308,12 @@ void LiveAir::housekeep(LiveOwner& owner, std::int64_t now) {
 shm::RadioTally LiveAir::tally(std::uint32_t node) const {
   const Tally& air = air_.tally(node);
   const Port& port = ports_[node];
-  return {.offered = air.offered + port.malformed,
+  return {.offered = air.offered + port.malformed + port.refused,
           .transmissions = air.transmissions,
           .retries = air.retries,
           .acknowledged = air.acknowledged,
           .received = air.received - port.lost_interface,
-          .dropped_queue_full = air.dropped_queue_full,
+          .dropped_queue_full = air.dropped_queue_full + port.refused,
           .dropped_lifetime = air.dropped_lifetime,
           .dropped_retry_limit = air.dropped_retry_limit,
           .dropped_malformed = port.malformed,

@@ -66,6 +66,8 @@ class LiveAir final : private AirListener {
     StampMatcher matcher;
     std::vector<std::uint8_t> held;  ///< A frame that waits for its stamp to be written.
     bool emptied{true};              ///< The last read_tap() left nothing behind.
+    std::uint64_t outstanding{0};    ///< Frames that the air has and is not done with.
+    std::uint64_t refused{0};        ///< For want of a place in the air.
     std::uint64_t malformed{0};
     std::uint64_t before_air{0};
     std::uint64_t lost_interface{0};

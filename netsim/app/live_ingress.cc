@@ -14,16 +14,23 @@ namespace {
 
 /// Frames read from one TAP in a row: a node that floods must not keep the others waiting.
 constexpr int kReadBudget = 32;
+/// Frames of a node that the air takes beyond what its MAC queue holds, since event time trails the
+/// clock: as many as a TAP holds. In 50 ms, the latest that a release of a VALID run may be, the
+/// air cannot send more.
+constexpr std::uint64_t kBeyondQueue = 1'000;
 /// A frame that has not come out of its TAP after this long never will.
 constexpr std::int64_t kPayloadTimeout_ns = 200'000'000;
 
 }  // namespace
 
+/// Takes what is in the ring by now: a node that floods must not keep us here.
 void LiveAir::drain_stamps() {
   if (!stamps_) {
     return;
   }
-  while (const auto stamp = stamps_->reader().next()) {
+  RingReader& ring = stamps_->reader();
+  const std::uint64_t end = ring.end();
+  while (const auto stamp = ring.next(end)) {
     take(*stamp);
   }
 }
@@ -53,14 +60,20 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
     frames_.drop_if_over(frame);
     return;
   }
+  const std::int32_t to = addresses_.destination(*destination);
   ingress_delay_.add(entered_ns - live.sent_ns);
+  Port& port = ports_[live.node];
+  if (++port.outstanding > air_.mac().queue_frames + kBeyondQueue) {
+    ++port.refused;
+    finished({.id = frame, .destination = to, .outcome = SendOutcome::kQueueFull});
+    return;
+  }
   if (live.sent_ns < to_ns(air_.now())) {
     clamp_.add(to_ns(air_.now()) - live.sent_ns);
   }
-  air_.offer(live.node, sim_time(live.sent_ns),
-             {.id = frame,
-              .destination = addresses_.destination(*destination),
-              .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes)});
+  air_.offer(
+      live.node, sim_time(live.sent_ns),
+      {.id = frame, .destination = to, .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes)});
 }
 
 /// Reads every TAP that has something, a bounded number of frames each; false when none had.

@@ -34,12 +34,11 @@ std::uint64_t fdinfo(int fd, const std::string& key) {
 
 }  // namespace
 
-std::optional<shm::SendStamp> RingReader::next() {
+std::optional<shm::SendStamp> RingReader::next(std::uint64_t end) {
   blocked_ = false;
   // Only this side moves the consumer's position.
   std::uint64_t consumed = memory_.consumer->load(std::memory_order_relaxed);
-  const std::uint64_t produced = memory_.producer->load(std::memory_order_acquire);
-  while (consumed < produced) {
+  while (consumed < end) {
     const std::byte* const record = memory_.data + (consumed & (memory_.byte_size - 1));
     const std::uint32_t header =
         __atomic_load_n(reinterpret_cast<const std::uint32_t*>(record), __ATOMIC_ACQUIRE);

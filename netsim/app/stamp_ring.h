@@ -27,8 +27,13 @@ class RingReader {
 
   explicit RingReader(const Memory& memory) : memory_{memory} {}
 
-  /// The next stamp, taken off the ring; nothing when there is none, or when blocked().
-  std::optional<shm::SendStamp> next();
+  /// Where the records that have a place in the ring by now end.
+  [[nodiscard]] std::uint64_t end() const {
+    return memory_.producer->load(std::memory_order_acquire);
+  }
+  /// The next stamp before `end`, taken off the ring; nothing when there is none, or when
+  /// blocked().
+  std::optional<shm::SendStamp> next(std::uint64_t end);
 
   /// Whether the next record has a place but is not written yet: others may wait behind it.
   [[nodiscard]] bool blocked() const { return blocked_; }

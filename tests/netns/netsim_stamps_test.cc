@@ -181,6 +181,36 @@ TEST_CASE("a flood fills the sender's own queue, and another node's frames still
   CHECK(fleet.air().tally(1).dropped_queue_full == 0);
 }
 
+TEST_CASE("what a node sends beyond its queue while nobody looks is dropped there and counted") {
+  Stamping stamping;
+  TapFleet fleet{3, [&](std::vector<TapNode>& nodes) { return stamping.attach(nodes); }};
+  if (!stamping.missing.empty()) {
+    WARN("skipped: " << stamping.missing);
+    return;
+  }
+  // 1 ms each at 6 Mb/s; the queue holds 500, and the air 1000 more that wait for their time.
+  constexpr int kFrames = 3'000;
+
+  fleet.stall(100'000'000, [&] {
+    for (int i = 0; i < kFrames; ++i) {
+      fleet.send(0, test_address(255), std::string(700, 'f'));
+    }
+  });
+  fleet.send(1, test_address(255), "still here");
+  std::string text(700, 'f');
+  while (text == std::string(700, 'f')) {
+    text = fleet.receive(2);
+  }
+  CHECK(text == "still here");
+  fleet.stop();
+
+  const auto tally = fleet.air().tally(0);
+  CHECK(tally.offered == kFrames);
+  CHECK(tally.dropped_queue_full > 2'000);
+  CHECK(tally.dropped_queue_full + tally.transmissions <= kFrames);
+  CHECK(fleet.air().report().unstamped() == 0);
+}
+
 TEST_CASE("frames that were not read during a stall are not taken for lost") {
   Stamping stamping;
   TapFleet fleet{2, [&](std::vector<TapNode>& nodes) { return stamping.attach(nodes); }};

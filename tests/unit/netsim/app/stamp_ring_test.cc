@@ -34,6 +34,8 @@ class FakeRing {
     write(position, &header, sizeof header);
   }
 
+  std::optional<shm::SendStamp> next() { return reader.next(reader.end()); }
+
   std::atomic<std::uint64_t> consumer{0};
   std::atomic<std::uint64_t> producer{0};
   alignas(8) std::array<std::byte, 2 * kBytes> data{};
@@ -59,9 +61,9 @@ TEST_CASE("stamps come in order and free their place, around the end of the ring
     ring.push(100 + i);
 
     CHECK_FALSE(ring.reader.empty());
-    CHECK(ring.reader.next().value().monotonic_ns == i);
-    CHECK(ring.reader.next().value().monotonic_ns == 100 + i);
-    CHECK_FALSE(ring.reader.next());
+    CHECK(ring.next().value().monotonic_ns == i);
+    CHECK(ring.next().value().monotonic_ns == 100 + i);
+    CHECK_FALSE(ring.next());
     CHECK(ring.reader.empty());
     CHECK(ring.consumer.load() == ring.producer.load());
   }
@@ -72,14 +74,27 @@ TEST_CASE("a record that is still being written blocks those behind it until it 
   const auto first = ring.push(1, kBusy);
   ring.push(2);
 
-  CHECK_FALSE(ring.reader.next());
+  CHECK_FALSE(ring.next());
   CHECK(ring.reader.blocked());
   CHECK_FALSE(ring.reader.empty());
 
   ring.commit(first);
-  CHECK(ring.reader.next().value().monotonic_ns == 1);
+  CHECK(ring.next().value().monotonic_ns == 1);
   CHECK_FALSE(ring.reader.blocked());
-  CHECK(ring.reader.next().value().monotonic_ns == 2);
+  CHECK(ring.next().value().monotonic_ns == 2);
+}
+
+TEST_CASE("what comes after a look at the ring's end is left for the next look") {
+  FakeRing ring;
+  ring.push(1);
+  const std::uint64_t end = ring.reader.end();
+  ring.push(2, kBusy);
+
+  CHECK(ring.reader.next(end).value().monotonic_ns == 1);
+  CHECK_FALSE(ring.reader.next(end));
+  CHECK_FALSE(ring.reader.blocked());
+  CHECK_FALSE(ring.next());
+  CHECK(ring.reader.blocked());
 }
 
 TEST_CASE("discarded records and records of another size are skipped") {
@@ -88,7 +103,7 @@ TEST_CASE("discarded records and records of another size are skipped") {
   ring.begin_record(16, 0);
   ring.push(3);
 
-  CHECK(ring.reader.next().value().monotonic_ns == 3);
+  CHECK(ring.next().value().monotonic_ns == 3);
   CHECK(ring.reader.foreign() == 1);
   CHECK(ring.reader.empty());
 }
