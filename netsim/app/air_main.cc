@@ -90,7 +90,9 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--duration", o.duration_s, "Measured, after 0.5 s of warm-up [s]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--replay", o.replay_file, "Frame log of a live run, to be simulated again")
+  app.add_option("--replay", o.replay_file,
+                 "Frame log of a live run, to be simulated again with the radio that it names; of "
+                 "the other options --seed, --positions and --equal-power count")
       ->check(CLI::ExistingFile);
   app.add_option("--positions", o.positions_file,
                  "For --replay: CSV time_ns,node,x_m,y_m,z_m; without it all are in range")
@@ -162,8 +164,11 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   apply(options);
   if (!options.replay_file.empty()) {
-    const ReplayLog log = read_replay_log(options.replay_file, options.positions_file);
-    print_replay(std::cout, log, replay(log, options.run.air, options.run.layout.equal_power));
+    ReplayLog log = read_replay_log(options.replay_file, options.positions_file);
+    if (app.count("--seed") > 0) {
+      log.air.seed = options.run.air.seed;
+    }
+    print_replay(std::cout, log, replay(log, options.run.layout.equal_power));
     return 0;
   }
   const auto begin = std::chrono::steady_clock::now();

@@ -1,10 +1,12 @@
 #include "netsim/app/frame_record.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdlib>
+#include <concepts>
 #include <sstream>
 #include <stdexcept>
+#include <vector>
 
 namespace cuscus::netsim {
 namespace {
@@ -20,8 +22,9 @@ std::string_view next_field(std::string_view& line) {
   return field;
 }
 
-template <typename Integer>
-bool read(std::string_view field, Integer& value) {
+template <typename Number>
+requires std::is_arithmetic_v<Number>
+bool read(std::string_view field, Number& value) {
   const char* const end = field.data() + field.size();
   const auto [stop, error] = std::from_chars(field.data(), end, value);
   return error == std::errc{} && stop == end;
@@ -33,6 +36,94 @@ std::string text_of(double value) {
   text << value;
   return text.str();
 }
+std::string text_of(const std::string& value) { return value; }
+std::string text_of(Duration value) { return std::to_string(value.count()); }
+template <std::integral Integer>
+std::string text_of(Integer value) {
+  return std::to_string(value);
+}
+
+bool read(std::string_view field, std::string& value) {
+  value = field;
+  return true;
+}
+bool read(std::string_view field, Duration& value) {
+  Duration::rep count = 0;
+  const bool whole = read(field, count);
+  value = Duration{count};
+  return whole;
+}
+
+/// Numbers with blanks between them.
+template <typename Number>
+std::string text_of(const std::vector<Number>& values) {
+  std::string text;
+  for (const Number& value : values) {
+    text += (text.empty() ? "" : " ") + text_of(value);
+  }
+  return text;
+}
+template <typename Number>
+bool read(std::string_view field, std::vector<Number>& values) {
+  values.clear();
+  while (!field.empty()) {
+    const std::size_t blank = std::min(field.find(' '), field.size());
+    if (!read(field.substr(0, blank), values.emplace_back())) {
+      return false;
+    }
+    field.remove_prefix(std::min(blank + 1, field.size()));
+  }
+  return true;
+}
+
+/// One value per node.
+template <typename Value>
+std::vector<double> of_nodes(const AirParameters& p, Value AirNode::*member) {
+  std::vector<double> values;
+  for (const AirNode& node : p.nodes) {
+    values.push_back((node.*member).value);
+  }
+  return values;
+}
+template <typename Value>
+bool read_nodes(std::string_view field, AirParameters& p, Value AirNode::*member) {
+  std::vector<double> values;
+  if (!read(field, values) || values.size() != p.nodes.size()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    (p.nodes[i].*member).value = values[i];
+  }
+  return true;
+}
+
+/// Calls `field` with the key and the member of everything that is the same for all nodes and that
+/// a replay has to know.
+template <typename Parameters, typename Field>
+void for_each_common(Parameters& p, const Field& field) {
+  field("seed", p.seed);
+  field("standard", p.standard);
+  field("data_rate_kbps", p.data_rate_kbps);
+  field("group_rate_kbps", p.group_rate_kbps);
+  field("basic_rates_kbps", p.basic_rates_kbps);
+  field("slot_ns", p.slot);
+  field("retry_limit", p.retry_limit);
+  field("queue_frames", p.queue_frames);
+  field("queue_lifetime_ns", p.queue_lifetime);
+  field("error_model", p.error_model);
+  field("noise_figure_db", p.noise_figure.value);
+  field("cca_preamble_dbm", p.cca_preamble.value);
+  field("cca_energy_dbm", p.cca_energy.value);
+  field("sensitivity_dbm", p.sensitivity.value);
+  field("detection_minimum_dbm", p.detection_minimum.value);
+  field("detection_minimum_sinr_db", p.detection_minimum_sinr.value);
+  field("carrier_hz", p.channel.carrier_hz);
+  field("propagation", p.channel.model);
+  field("exponent", p.channel.exponent);
+  field("reference_loss_db", p.channel.reference_loss.value);
+  field("alpha", p.channel.alpha);
+  field("chi_db2", p.channel.chi_db2);
+}
 
 }  // namespace
 
@@ -43,17 +134,13 @@ std::string_view name_of(SendOutcome outcome) {
 std::string frame_log_header(const AirParameters& p) {
   std::ostringstream text;
   text << "# cuscus frame log 1; times are nanoseconds since the run began\n"
-       << "# nodes=" << p.nodes.size() << "\n# seed=" << p.seed
-       << "\n# data_rate_kbps=" << p.data_rate_kbps << "\n# group_rate_kbps=" << p.group_rate_kbps
-       << "\n# slot_ns=" << p.slot.count() << "\n# retry_limit=" << p.retry_limit
-       << "\n# queue_frames=" << p.queue_frames
-       << "\n# queue_lifetime_ns=" << p.queue_lifetime.count()
-       << "\n# noise_figure_db=" << text_of(p.noise_figure.value)
-       << "\n# cca_preamble_dbm=" << text_of(p.cca_preamble.value)
-       << "\n# cca_energy_dbm=" << text_of(p.cca_energy.value)
-       << "\n# detection_minimum_dbm=" << text_of(p.detection_minimum.value)
-       << "\n# detection_minimum_sinr_db=" << text_of(p.detection_minimum_sinr.value)
-       << "\nsent_ns,node,destination,bytes,attempts,outcome,delivered_count,first_delivery_ns\n";
+       << "# nodes=" << p.nodes.size()
+       << "\n# tx_power_dbm=" << text_of(of_nodes(p, &AirNode::tx_power))
+       << "\n# antenna_gain_db=" << text_of(of_nodes(p, &AirNode::antenna_gain));
+  for_each_common(p, [&text](std::string_view key, const auto& value) {
+    text << "\n# " << key << '=' << text_of(value);
+  });
+  text << "\nsent_ns,node,destination,bytes,attempts,outcome,delivered_count,first_delivery_ns\n";
   return text.str();
 }
 
@@ -109,39 +196,31 @@ bool parse_frame_log_header(std::string_view line, AirParameters& p) {
     return false;
   }
   const std::string_view key = line.substr(2, equals - 2);
-  const std::string value{line.substr(equals + 1)};
-  const auto number = [&] { return std::stod(value); };
-  const auto integer = [&] { return std::stoll(value); };
+  const std::string_view value = line.substr(equals + 1);
+  bool known = true;
+  bool good = true;
   if (key == "nodes") {
-    p.nodes.assign(static_cast<std::size_t>(integer()), AirNode{});
-  } else if (key == "seed") {
-    p.seed = std::stoull(value);
-  } else if (key == "data_rate_kbps") {
-    p.data_rate_kbps = static_cast<std::uint32_t>(integer());
-  } else if (key == "group_rate_kbps") {
-    p.group_rate_kbps = static_cast<std::uint32_t>(integer());
-  } else if (key == "slot_ns") {
-    p.slot = Duration{integer()};
-  } else if (key == "retry_limit") {
-    p.retry_limit = static_cast<std::uint32_t>(integer());
-  } else if (key == "queue_frames") {
-    p.queue_frames = static_cast<std::uint32_t>(integer());
-  } else if (key == "queue_lifetime_ns") {
-    p.queue_lifetime = Duration{integer()};
-  } else if (key == "noise_figure_db") {
-    p.noise_figure.value = number();
-  } else if (key == "cca_preamble_dbm") {
-    p.cca_preamble.value = number();
-  } else if (key == "cca_energy_dbm") {
-    p.cca_energy.value = number();
-  } else if (key == "detection_minimum_dbm") {
-    p.detection_minimum.value = number();
-  } else if (key == "detection_minimum_sinr_db") {
-    p.detection_minimum_sinr.value = number();
+    std::uint32_t count = 0;
+    good = read(value, count);
+    p.nodes.assign(count, AirNode{});
+  } else if (key == "tx_power_dbm") {
+    good = read_nodes(value, p, &AirNode::tx_power);
+  } else if (key == "antenna_gain_db") {
+    good = read_nodes(value, p, &AirNode::antenna_gain);
   } else {
-    return false;
+    known = false;
+    for_each_common(p, [&](std::string_view name, auto& member) {
+      if (name == key) {
+        known = true;
+        good = read(value, member);
+      }
+    });
   }
-  return true;
+  if (!good) {
+    throw std::invalid_argument{"'" + std::string{key} + "' cannot be '" + std::string{value} +
+                                "'"};
+  }
+  return known;
 }
 
 }  // namespace cuscus::netsim

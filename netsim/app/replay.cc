@@ -94,7 +94,11 @@ ReplayLog read_replay_log(const std::string& path, const std::string& positions_
       continue;
     }
     if (line.front() == '#') {
-      parse_frame_log_header(line, log.air);
+      try {
+        parse_frame_log_header(line, log.air);
+      } catch (const std::invalid_argument& error) {
+        throw std::runtime_error{path + ":" + std::to_string(number) + ": " + error.what()};
+      }
       continue;
     }
     const auto record = parse_frame_record(line);
@@ -117,11 +121,9 @@ ReplayLog read_replay_log(const std::string& path, const std::string& positions_
   return log;
 }
 
-ReplayResult replay(const ReplayLog& log, const AirParameters& air, DecibelMilliwatt equal_power) {
+ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power) {
   AirParameters parameters = log.air;
-  parameters.error_model = air.error_model;
-  parameters.channel = air.channel;
-  parameters.seed = air.seed;
+  parameters.channel.seed = parameters.seed;
   if (log.positions.empty()) {
     parameters.channel.model = "fixed";
     parameters.channel.reference_loss = parameters.nodes.front().tx_power - equal_power;

@@ -45,10 +45,10 @@ struct ReplayResult {
   std::vector<Tally> tallies;
 };
 
-/// Simulates the log's sends. Seed, models and carrier are taken from `air`, the rest from the log;
-/// without positions every link has `equal_power`.
-[[nodiscard]] ReplayResult replay(const ReplayLog& log, const AirParameters& air,
-                                  DecibelMilliwatt equal_power);
+/// Simulates the log's sends on the air of its header; without positions every link has
+/// `equal_power`. With the positions of the run and its seed, backoffs and errors are drawn as they
+/// were in the run.
+[[nodiscard]] ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power);
 
 /// A CSV table: one line per cast and side.
 void print_replay(std::ostream& out, const ReplayLog& log, const ReplayResult& result);

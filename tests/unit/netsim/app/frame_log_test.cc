@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -46,6 +47,16 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   parameters.nodes.assign(3, AirNode{});
   parameters.group_rate_kbps = 12'000;
   parameters.detection_minimum = {-std::numeric_limits<double>::infinity()};
+  parameters.basic_rates_kbps = {6'000, 24'000};
+  parameters.sensitivity = {-98.5};
+  parameters.error_model = "yans";
+  parameters.seed = 77;
+  parameters.slot = std::chrono::microseconds{9};
+  parameters.channel.model = "paper-eq1";
+  parameters.channel.carrier_hz = 2.437e9;
+  parameters.channel.alpha = 26.5;
+  parameters.channel.chi_db2 = 3.5;
+  parameters.nodes[1] = {.tx_power = {20.5}, .antenna_gain = {2.15}};
 
   {
     FrameLog log{std::move(file.fd), parameters};
@@ -59,6 +70,18 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.air.nodes.size() == 3);
   CHECK(log.air.group_rate_kbps == 12'000);
   CHECK(log.air.detection_minimum == parameters.detection_minimum);
+  CHECK(log.air.basic_rates_kbps == parameters.basic_rates_kbps);
+  CHECK(log.air.sensitivity == parameters.sensitivity);
+  CHECK(log.air.error_model == "yans");
+  CHECK(log.air.seed == 77);
+  CHECK(log.air.slot == parameters.slot);
+  CHECK(log.air.channel.model == "paper-eq1");
+  CHECK(log.air.channel.carrier_hz == parameters.channel.carrier_hz);
+  CHECK(log.air.channel.alpha == parameters.channel.alpha);
+  CHECK(log.air.channel.chi_db2 == parameters.channel.chi_db2);
+  CHECK(log.air.nodes[0].tx_power == AirNode{}.tx_power);
+  CHECK(log.air.nodes[1].tx_power == parameters.nodes[1].tx_power);
+  CHECK(log.air.nodes[1].antenna_gain == parameters.nodes[1].antenna_gain);
   REQUIRE(log.frames.size() == 3);
   CHECK(log.frames[0].sent_ns == 1'000'000);
   CHECK(log.frames[0].destination == kGroup);
@@ -77,7 +100,7 @@ TEST_CASE("a replay of sends that do not meet delivers what an idle air delivers
         record(std::int64_t{10'000'000} * i, static_cast<std::uint32_t>(i % 3), kGroup));
   }
 
-  const ReplayResult result = replay(log, AirParameters{}, DecibelMilliwatt{-50.0});
+  const ReplayResult result = replay(log, DecibelMilliwatt{-50.0});
 
   CHECK(result.group.live.deliveries == 200);
   CHECK(result.group.simulated.deliveries == 200);
@@ -93,10 +116,35 @@ TEST_CASE("a replay with positions loses what was out of reach") {
                    {.time_ns = 0, .node = 1, .p_WN = {50, 0, 10}},
                    {.time_ns = 2'000'000'000, .node = 1, .p_WN = {5'000, 0, 10}}};
 
-  const ReplayResult result = replay(log, AirParameters{}, DecibelMilliwatt{-50.0});
+  const ReplayResult result = replay(log, DecibelMilliwatt{-50.0});
 
   CHECK(result.group.simulated.deliveries == 1);
   CHECK(result.tallies[1].lost_below_detection == 1);
+}
+
+TEST_CASE("a replay uses the powers and the channel that the log names") {
+  ReplayLog log;
+  log.air.nodes.assign(2, AirNode{});
+  log.frames = {record(1'000'000, 0, kGroup)};
+  log.positions = {{.time_ns = 0, .node = 0, .p_WN = {0, 0, 10}},
+                   {.time_ns = 0, .node = 1, .p_WN = {50, 0, 10}}};
+  CHECK(replay(log, DecibelMilliwatt{-50.0}).group.simulated.deliveries == 1);
+
+  SECTION("a transmitter that is too weak") { log.air.nodes[0].tx_power = {-40.0}; }
+  SECTION("a loss that is too high") {
+    log.air.channel.model = "log-distance";
+    log.air.channel.exponent = 5.0;
+  }
+
+  CHECK(replay(log, DecibelMilliwatt{-50.0}).group.simulated.deliveries == 0);
+}
+
+TEST_CASE("a header line that cannot be read is refused with file, line and key") {
+  ScratchFile file;
+  std::ofstream{file.path} << "# nodes=2\n# tx_power_dbm=16 16 16\n";
+
+  CHECK_THROWS_WITH(read_replay_log(file.path, ""),
+                    Catch::Contains(file.path + ":2: 'tx_power_dbm' cannot be '16 16 16'"));
 }
 
 TEST_CASE("a line that is no record is refused with file and line") {
