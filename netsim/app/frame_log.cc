@@ -39,9 +39,14 @@ FrameLog::FrameLog(posix::UniqueFd file, const AirParameters& parameters)
   writer_ = std::jthread{[this](const std::stop_token& stop) { serve(stop); }};
 }
 
-FrameLog::~FrameLog() {
-  writer_.request_stop();
-  writer_.join();
+FrameLog::~FrameLog() { finish(); }
+
+std::uint64_t FrameLog::finish() {
+  if (writer_.joinable()) {
+    writer_.request_stop();
+    writer_.join();
+  }
+  return left_out_.load(std::memory_order_relaxed);
 }
 
 void FrameLog::add(const FrameRecord& record) noexcept {
@@ -62,8 +67,10 @@ void FrameLog::write_out(std::string& text) {
   for (; next < added; ++next) {
     append_frame_record(text, records_[next % kCapacity]);
   }
-  if (!write_all(file_.get(), text)) {
-    left_out_.fetch_add(added - first, std::memory_order_relaxed);  // a full disk, say
+  // After a failure, of a full disk say, nothing more is written: a line that was cut is the last.
+  broken_ = broken_ || !write_all(file_.get(), text);
+  if (broken_) {
+    left_out_.fetch_add(added - first, std::memory_order_relaxed);
   }
   written_.store(added, std::memory_order_release);
 }

@@ -20,15 +20,13 @@ class FrameLog {
   FrameLog& operator=(const FrameLog&) = delete;
   FrameLog(FrameLog&&) = delete;
   FrameLog& operator=(FrameLog&&) = delete;
-  /// Writes what is left.
   ~FrameLog();
 
   /// From one thread. A record that finds no room is counted and left out.
   void add(const FrameRecord& record) noexcept;
 
-  [[nodiscard]] std::uint64_t left_out() const noexcept {
-    return left_out_.load(std::memory_order_relaxed);
-  }
+  /// Writes what is left; nothing may be added any more. How many records the file lacks.
+  std::uint64_t finish();
 
  private:
   void write_out(std::string& text);
@@ -39,6 +37,7 @@ class FrameLog {
   std::atomic<std::uint64_t> added_{0};
   std::atomic<std::uint64_t> written_{0};
   std::atomic<std::uint64_t> left_out_{0};
+  bool broken_{false};  ///< The file took no more; the writer's.
   std::jthread writer_;
 };
 

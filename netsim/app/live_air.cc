@@ -118,7 +118,13 @@ void LiveAir::run(std::int64_t start_monotonic_ns, LiveOwner& owner) {
   publish(0, air_.node_count());
   publish_timing();
   cpu_s_ = posix::process_cpu_s();
-  log_.reset();
+  not_logged_ = log_ ? log_->finish() : 0;
+  if (not_logged_ > 0) {
+    spdlog::warn(
+        "frame log: {} frames are missing: the file could not be written fast enough, or "
+        "no more",
+        not_logged_);
+  }
 }
 
 /// What the kernel sent before the run belongs to nobody. TAPs first: of a frame that is sent
@@ -364,6 +370,7 @@ proto::RadioReport LiveAir::report() const {
   }
   report.set_lost_before_air(before_air);
   report.set_unstamped(unstamped_);
+  report.set_frames_not_logged(not_logged_);
   return report;
 }
 

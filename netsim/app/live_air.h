@@ -130,6 +130,7 @@ class LiveAir final : private AirListener {
   statistics::Log2Histogram release_lateness_;
   statistics::Log2Histogram clamp_;
   std::uint64_t unstamped_{0};
+  std::uint64_t not_logged_{0};
   std::string scheduler_;
   double cpu_s_{0.0};
 };

@@ -90,6 +90,9 @@ ReplayLog read_replay_log(const std::string& path, const std::string& positions_
   ReplayLog log;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
+    if (file.eof()) {
+      break;  // cut: each whole line ends with a newline
+    }
     if (line.empty() || line.compare(0, 7, "sent_ns") == 0) {
       continue;
     }

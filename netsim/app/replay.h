@@ -23,6 +23,7 @@ struct ReplayLog {
   std::vector<PositionRecord> positions;  ///< By time; empty: all in range.
 };
 
+/// A last line without its newline was cut, by a full disk say, and is left out.
 /// @throws std::runtime_error naming file and line. `positions_path` may be empty.
 [[nodiscard]] ReplayLog read_replay_log(const std::string& path, const std::string& positions_path);
 

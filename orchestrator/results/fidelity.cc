@@ -102,6 +102,10 @@ class Judge {
     }
     share("lost_outside_the_air", "frames lost between the programs and the emulator",
           report.lost_before_air() + inputs_.tap_drops, frames + report.lost_before_air(), kLost);
+    if (report.frames_not_logged() > 0) {
+      fidelity_.notes.push_back(
+          fmt::format("the frame log lacks {} frames", report.frames_not_logged()));
+    }
     scheduler("netsim", report.scheduler());
   }
 

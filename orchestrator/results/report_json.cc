@@ -26,7 +26,8 @@ Json json_of(const proto::RadioReport& report) {
           {"events", report.events()},
           {"cpu_s", report.cpu_s()},
           {"lost_before_air", report.lost_before_air()},
-          {"unstamped", report.unstamped()}};
+          {"unstamped", report.unstamped()},
+          {"frames_not_logged", report.frames_not_logged()}};
 }
 
 Json json_of(const proto::WorldReport& report) {

@@ -211,6 +211,16 @@ TEST_CASE("What a host did not grant is noted, and only the figures count") {
   CHECK(judge(inputs).notes.size() == 1);
 }
 
+TEST_CASE("A frame log that lacks frames is noted") {
+  FidelityInputs inputs = good_run();
+  inputs.radio->set_frames_not_logged(3);
+
+  const Fidelity fidelity = judge(inputs);
+
+  CHECK(fidelity.verdict == Verdict::kValid);
+  CHECK(fidelity.notes == std::vector<std::string>{"the frame log lacks 3 frames"});
+}
+
 TEST_CASE("Stamps taken on reading make a long ingress delay count") {
   FidelityInputs inputs = good_run();
   *inputs.radio->mutable_ingress_delay() = durations({{17, 11'900}, {22, 100}}, 8'000'000);

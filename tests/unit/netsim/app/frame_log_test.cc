@@ -1,9 +1,11 @@
 #include "netsim/app/frame_log.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <fstream>
@@ -63,7 +65,7 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
     log.add(record(5'000'000, 2, 0));
     log.add(record(1'000'000, 0, kGroup));
     log.add(record(2'000'000, 1, kNobody));
-    CHECK(log.left_out() == 0);
+    CHECK(log.finish() == 0);
   }
   const ReplayLog log = read_replay_log(file.path, "");
 
@@ -145,6 +147,29 @@ TEST_CASE("a header line that cannot be read is refused with file, line and key"
 
   CHECK_THROWS_WITH(read_replay_log(file.path, ""),
                     Catch::Contains(file.path + ":2: 'tx_power_dbm' cannot be '16 16 16'"));
+}
+
+TEST_CASE("a last line that was cut is left out") {
+  ScratchFile file;
+  std::ofstream{file.path} << "# nodes=2\n1,0,group,100,1,sent,1,2\n5,1,group,100,1,sen";
+
+  CHECK(read_replay_log(file.path, "").frames.size() == 1);
+}
+
+TEST_CASE("records that the disk does not take are counted") {
+  AirParameters parameters;
+  // A pipe whose reader leaves when the header has passed.
+  std::array<int, 2> ends{};
+  posix::check("pipe2", ::pipe2(ends.data(), O_CLOEXEC));
+  posix::UniqueFd reader{ends[0]};
+  ::signal(SIGPIPE, SIG_IGN);
+  FrameLog log{posix::UniqueFd{ends[1]}, parameters};
+  reader = {};
+
+  log.add(record(1'000'000, 0, kGroup));
+  log.add(record(2'000'000, 1, kGroup));
+
+  CHECK(log.finish() == 2);
 }
 
 TEST_CASE("a line that is no record is refused with file and line") {
