@@ -24,12 +24,15 @@ struct ShareLimits {
   std::uint64_t forgiven;
 };
 
-/// Bins are powers of two: 2^19 ns = 0.52 ms, 2^21 ns = 2.10 ms, 2^23 ns = 8.39 ms.
+/// Bins are powers of two: 2^14 ns = 16 us (a slot of 20 us or less), 2^19 ns = 0.52 ms, 2^21 ns
+/// = 2.10 ms, 2^23 ns = 8.39 ms.
+constexpr unsigned kSlot = 14;
 constexpr unsigned kHalfMillisecond = 19;
 constexpr unsigned kTwoMilliseconds = 21;
 constexpr unsigned kEightMilliseconds = 23;
 
 constexpr ShareLimits kLateByHalf{.valid_percent = 1.0, .degraded_percent = 10.0, .forgiven = 10};
+constexpr ShareLimits kClamps{.valid_percent = 0.1, .degraded_percent = 1.0, .forgiven = 3};
 constexpr ShareLimits kLateByTwo{.valid_percent = 0.1, .degraded_percent = 1.0, .forgiven = 3};
 constexpr ShareLimits kStepsLateByTwo{.valid_percent = 0.5, .degraded_percent = 5.0, .forgiven = 3};
 constexpr ShareLimits kStepsLateByEight{
@@ -89,8 +92,8 @@ class Judge {
            .valid_up_to = kLongestValid_ms,
            .degraded_up_to = kLongestDegraded_ms});
     const std::uint64_t frames = report.ingress_delay().count();
-    share("clamps", "frames that the emulator knew of after their time by more than 2.10 ms",
-          count_from(report.clamp(), kTwoMilliseconds), frames, kLateByTwo);
+    share("clamps", "frames that the emulator knew of more than 16 us after their time",
+          count_from(report.clamp(), kSlot), frames, kClamps);
     if (report.send_stamps() == "tc-bpf") {
       share("unstamped", "frames without a send stamp", report.unstamped(), frames, kUnstamped);
     } else {

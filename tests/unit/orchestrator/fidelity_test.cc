@@ -125,18 +125,24 @@ const std::vector<Case> kCases{
        set_release(in, durations({{14, 80}, {21, 20}}, 4'000'000));
      },
      Verdict::kDegraded, ""},
-    {"clamps that do not matter",
+    {"clamps below a slot, and one in two thousand of several slots",
      [](auto& in) {
-       in.radio->set_clamps(500);
-       *in.radio->mutable_clamp() = durations({{15, 500}}, 60'000);
+       in.radio->set_clamps(506);
+       *in.radio->mutable_clamp() = durations({{13, 500}, {16, 6}}, 100'000);
      },
      Verdict::kValid, ""},
-    {"clamps of several milliseconds in one frame of a hundred",
+    {"clamps of several slots in one frame of a hundred",
      [](auto& in) {
        in.radio->set_clamps(100);
-       *in.radio->mutable_clamp() = durations({{22, 100}}, 8'000'000);
+       *in.radio->mutable_clamp() = durations({{15, 100}}, 60'000);
      },
-     Verdict::kDegraded, "100 of 12000, 0.833 %"},
+     Verdict::kDegraded, "more than 16 us after their time: 100 of 12000, 0.833 %"},
+    {"clamps of several slots in one frame of fifty",
+     [](auto& in) {
+       in.radio->set_clamps(240);
+       *in.radio->mutable_clamp() = durations({{15, 240}}, 60'000);
+     },
+     Verdict::kInvalid, "240 of 12000, 2 %"},
     {"one frame lost on a TAP", [](auto& in) { in.tap_drops = 1; }, Verdict::kDegraded,
      "frames lost between the programs and the emulator: 1 of 12000"},
     {"one frame in a hundred lost on a TAP", [](auto& in) { in.tap_drops = 120; },
