@@ -103,8 +103,9 @@ class Judge {
       late_share("ingress_later_than_2ms", "frames read", report.ingress_delay(), kTwoMilliseconds,
                  kLateByTwo);
     }
+    // A stamped frame that a TAP dropped is in both counts; `frames` has it already.
     share("lost_outside_the_air", "frames lost between the programs and the emulator",
-          report.lost_before_air() + inputs_.tap_drops, frames + report.lost_before_air(), kLost);
+          std::max(report.lost_before_air(), inputs_.tap_drops), frames, kLost);
     if (report.frames_not_logged() > 0) {
       fidelity_.notes.push_back(
           fmt::format("the frame log lacks {} frames", report.frames_not_logged()));

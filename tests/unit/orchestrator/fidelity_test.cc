@@ -148,7 +148,13 @@ const std::vector<Case> kCases{
     {"one frame in a hundred lost on a TAP", [](auto& in) { in.tap_drops = 120; },
      Verdict::kInvalid, "120 of 12000, 1 %"},
     {"frames stamped that never came", [](auto& in) { in.radio->set_lost_before_air(5); },
-     Verdict::kDegraded, "5 of 12005"},
+     Verdict::kDegraded, "5 of 12000"},
+    {"stamped frames that a TAP dropped",
+     [](auto& in) {
+       in.radio->set_lost_before_air(8);
+       in.tap_drops = 9;
+     },
+     Verdict::kDegraded, "9 of 12000"},
     {"frames without a stamp", [](auto& in) { in.radio->set_unstamped(60); }, Verdict::kDegraded,
      "frames without a send stamp: 60 of 12000, 0.5 %"},
     {"world steps that overran now and then", [](auto& in) { in.world->set_overruns(300); },
