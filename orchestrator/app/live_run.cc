@@ -71,6 +71,13 @@ std::vector<node::NodeNetwork> networks_of(const Plan& plan) {
   return networks;
 }
 
+/// As nohup(1) leaves SIGHUP, so that the terminal may be closed.
+bool is_ignored(int signal_number) {
+  struct sigaction action {};
+  posix::check("sigaction", ::sigaction(signal_number, nullptr, &action));
+  return action.sa_handler == SIG_IGN;
+}
+
 posix::UniqueFd open_service_log(const std::filesystem::path& path) {
   return posix::UniqueFd{
       posix::check("open " + path.native(),
@@ -82,8 +89,11 @@ posix::UniqueFd open_service_log(const std::filesystem::path& path) {
 LiveRun::LiveRun(const Plan& plan, RunSettings settings)
     : plan_{plan},
       settings_{std::move(settings)},
-      signals_{loop_, SIGINT, SIGTERM, SIGHUP},
+      signals_{loop_, SIGINT, SIGTERM},
       memories_{static_cast<std::uint32_t>(plan.nodes.size()), vehicles_of(plan)} {
+  if (!is_ignored(SIGHUP)) {
+    signals_.add(SIGHUP);
+  }
   watch_signals();
 }
 

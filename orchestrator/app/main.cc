@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <exception>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "common/scenario/scenario_error.h"
 #include "orchestrator/app/commands.h"
 #include "orchestrator/app/exit_code.h"
+#include "orchestrator/app/print.h"
 
 namespace {
 
@@ -117,6 +119,8 @@ struct CommandLine {
 }  // namespace
 
 int main(int argc, char* argv[]) try {
+  // Whoever reads the output may go; the run and its results do not depend on it.
+  static_cast<void>(std::signal(SIGPIPE, SIG_IGN));
   cuscus::log::start("cuscus");
   CommandLine line;
   try {
@@ -130,12 +134,12 @@ int main(int argc, char* argv[]) try {
   }
   return line.dispatch();
 } catch (const cuscus::scenario::ScenarioError& error) {
-  fmt::print(stderr, "cuscus: {}\n", error.what());
+  orchestrator::print(stderr, "cuscus: {}\n", error.what());
   return orchestrator::kExitUsage;
 } catch (const orchestrator::UsageError& error) {
-  fmt::print(stderr, "cuscus: {}\n", error.what());
+  orchestrator::print(stderr, "cuscus: {}\n", error.what());
   return orchestrator::kExitUsage;
 } catch (const std::exception& error) {
-  fmt::print(stderr, "cuscus: {}\n", error.what());
+  orchestrator::print(stderr, "cuscus: {}\n", error.what());
   return orchestrator::kExitFailed;
 }

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "orchestrator/app/print.h"
+
 namespace cuscus::orchestrator {
 namespace {
 
@@ -25,19 +27,19 @@ void Progress::show(std::chrono::nanoseconds elapsed, const std::string& detail)
   const double share = std::clamp(seconds(elapsed) / seconds(duration_), 0.0, 1.0);
   if (terminal_) {
     const int filled = static_cast<int>(share * kBarCells);
-    fmt::print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:5.1f}/{:.0f} s  {}", "", filled, "",
-               kBarCells - filled, seconds(elapsed), seconds(duration_), detail);
+    print(stderr, "\r\033[K[{:#<{}}{:.<{}}] {:5.1f}/{:.0f} s  {}", "", filled, "",
+          kBarCells - filled, seconds(elapsed), seconds(duration_), detail);
     std::fflush(stderr);
     drawn_ = true;
   } else if (elapsed >= next_plain_) {
     next_plain_ = elapsed + kPlainInterval;
-    fmt::print(stderr, "{:.0f}/{:.0f} s  {}\n", seconds(elapsed), seconds(duration_), detail);
+    print(stderr, "{:.0f}/{:.0f} s  {}\n", seconds(elapsed), seconds(duration_), detail);
   }
 }
 
 void Progress::finish() {
   if (drawn_) {
-    fmt::print(stderr, "\n");
+    print(stderr, "\n");
     drawn_ = false;
   }
 }

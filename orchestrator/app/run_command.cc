@@ -16,6 +16,7 @@
 #include "orchestrator/app/live_run.h"
 #include "orchestrator/app/ownership.h"
 #include "orchestrator/app/preflight.h"
+#include "orchestrator/app/print.h"
 #include "orchestrator/app/run_registry.h"
 #include "orchestrator/app/sampler.h"
 #include "orchestrator/plan/plan.h"
@@ -65,17 +66,17 @@ int exit_code_of(const FlightEnd& end, Verdict verdict) {
 void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& fidelity,
                const fs::path& results) {
   if (end.kind == FlightEnd::Kind::kFailed) {
-    fmt::print(stderr, "cuscus: the run failed after {:.1f} s: {}\n", end.flown_s, end.reason);
+    print(stderr, "cuscus: the run failed after {:.1f} s: {}\n", end.flown_s, end.reason);
   } else if (end.kind == FlightEnd::Kind::kInterrupted) {
-    fmt::print(stderr, "cuscus: interrupted by {} after {:.1f} s\n",
-               ::sigdescr_np(end.signal_number), end.flown_s);
+    print(stderr, "cuscus: interrupted by {} after {:.1f} s\n", ::sigdescr_np(end.signal_number),
+          end.flown_s);
   }
   if (outcome.formation_error) {
-    fmt::print(
-        "formation error: median {:.3f} m, 95 % below {:.3f} m (second half of the flight)\n",
-        outcome.formation_error->p50_m, outcome.formation_error->p95_m);
+    print(stdout,
+          "formation error: median {:.3f} m, 95 % below {:.3f} m (second half of the flight)\n",
+          outcome.formation_error->p50_m, outcome.formation_error->p95_m);
   }
-  fmt::print("results {}\n{}\n", results.native(), verdict_line(fidelity));
+  print(stdout, "results {}\n{}\n", results.native(), verdict_line(fidelity));
 }
 
 }  // namespace
@@ -109,9 +110,9 @@ int run_command(const RunArguments& arguments) {
       registry.enter(registered(plan, run_id, arguments.scenario.file, directory.path(), {}));
 
   const bool page = static_cast<bool>(page_listener);
-  fmt::print(stderr, "run {}: {} nodes for {:.0f} s{}\n", run_id, plan.nodes.size(),
-             to_seconds(plan.duration),
-             page ? fmt::format(", page http://127.0.0.1:{}", *plan.page_port) : "");
+  print(stderr, "run {}: {} nodes for {:.0f} s{}\n", run_id, plan.nodes.size(),
+        to_seconds(plan.duration),
+        page ? fmt::format(", page http://127.0.0.1:{}", *plan.page_port) : "");
   RunFacts facts{.run_id = run_id, .started_utc = utc_text(system_clock::now())};
   const std::int64_t suspended_before_ns = suspended_ns();
   MetricsWriter metrics{directory.create_file(std::string{kMetricsFile})};

@@ -1,6 +1,9 @@
 """Signals to cuscus itself: a run that is ended from outside keeps what it has recorded."""
 
+import fcntl
+import os
 import signal
+import termios
 import time
 import unittest
 
@@ -47,6 +50,39 @@ class Interrupt(unittest.TestCase):
 
     def test_sighup(self):
         self.interrupt_flight(signal.SIGHUP)
+
+    def test_reader_of_the_output_leaves(self):
+        in_pipe = ("bash", "-o", "pipefail", "-c", '"$@" 2>&1 | head -n 1', "bash")
+        with Run(small_fleet("3 s"), "--no-page", prefix=in_pipe) as run:
+            self.assertIn(run.wait(30), (0, 3), run.stderr)
+            self.assertEqual(len(run.stdout.splitlines()), 1)
+            self.assertEqual(run.summary["end_reason"], "duration reached")
+            self.assertEqual(run.summary["verdict"], run.fidelity["verdict"])
+
+    def run_on_terminal(self, terminal, **options):
+        return Run(small_fleet("3 s" if options else "60 s"), "--no-page", stdin=terminal,
+                   stdout=terminal, stderr=terminal,
+                   preexec_fn=lambda: fcntl.ioctl(terminal, termios.TIOCSCTTY, 0), **options)
+
+    def test_terminal_is_closed(self):
+        traces = Traces()
+        user, terminal = os.openpty()
+        with self.run_on_terminal(terminal) as run:
+            os.close(terminal)
+            run.until_flying(0.5)
+            traces.note(run)
+            since = time.monotonic()
+            os.close(user)
+            self.check_ended(run, traces, signal.SIGHUP, since)
+
+    def test_terminal_is_closed_under_nohup(self):
+        user, terminal = os.openpty()
+        with self.run_on_terminal(terminal, prefix=("env", "--ignore-signal=HUP")) as run:
+            os.close(terminal)
+            run.until_flying(0.5)
+            os.close(user)
+            self.assertIn(run.wait(30), (0, 3))
+            self.assertEqual(run.summary["end_reason"], "duration reached")
 
     def test_sigint_while_a_hundred_nodes_are_built(self):
         traces = Traces()

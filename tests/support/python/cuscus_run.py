@@ -22,7 +22,8 @@ SCENARIOS = SOURCE / "scenarios"
 class Run:
     """One `cuscus run`, started in the background."""
 
-    def __init__(self, scenario, *options, folder=None, env=None, prefix=()):
+    def __init__(self, scenario, *options, folder=None, env=None, prefix=(),
+                 **popen):
         self.folder = pathlib.Path(folder or tempfile.mkdtemp(prefix="cuscus-test-"))
         os.chmod(self.folder, 0o755)
         if isinstance(scenario, dict):
@@ -36,8 +37,9 @@ class Run:
         command = [*prefix, BIN / "cuscus", "run", self.scenario, "--out", self.results, *options]
         with open(self.stdout_path, "w") as out, open(self.stderr_path, "w") as err:
             self.process = subprocess.Popen(
-                [str(part) for part in command], stdout=out, stderr=err, stdin=subprocess.DEVNULL,
-                env={**os.environ, **(env or {})}, start_new_session=True)
+                [str(part) for part in command], env={**os.environ, **(env or {})},
+                **{"stdout": out, "stderr": err, "stdin": subprocess.DEVNULL,
+                   "start_new_session": True, **popen})
 
     def wait(self, timeout=180):
         """The exit code."""
