@@ -114,7 +114,7 @@ FidelityInputs fidelity_inputs(const Plan& plan, const LiveRun& run, const RunFa
     }
   }
   inputs.suspended = facts.suspended;
-  inputs.longest_supervision_gap = facts.longest_gap;
+  inputs.longest_supervision_gap = run.longest_gap();
   inputs.realtime_wanted = plan.realtime;
   return inputs;
 }

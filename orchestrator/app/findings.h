@@ -1,10 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 
 #include "common/scenario/scenario.h"
@@ -20,17 +18,6 @@ struct RunFacts {
   std::string run_id;
   std::string started_utc;
   std::chrono::nanoseconds suspended{0};
-  std::chrono::nanoseconds longest_gap{0};  ///< Between two looks at the run.
-  std::optional<std::chrono::steady_clock::time_point> last_look{};
-
-  /// Called at every look.
-  void note_supervision() {
-    const auto now = std::chrono::steady_clock::now();
-    if (last_look) {
-      longest_gap = std::max(longest_gap, std::chrono::nanoseconds{now - *last_look});
-    }
-    last_look = now;
-  }
 };
 
 /// How long the host has been suspended since it started: CLOCK_BOOTTIME - CLOCK_MONOTONIC [ns].

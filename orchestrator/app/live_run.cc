@@ -132,10 +132,13 @@ void LiveRun::fly(const OnSample& on_sample) {
     const auto finish = start + plan_.duration;
     auto next_sample = start;
     auto next_progress = start;
+    auto last_look = start;
     while (steady_clock::now() < finish) {
       wait_step(std::min({next_sample, next_progress, finish}));
       check_trouble();
       const auto now = steady_clock::now();
+      longest_gap_ = std::max(longest_gap_, std::chrono::nanoseconds{now - last_look});
+      last_look = now;
       if (now >= next_sample) {
         on_sample(sim_time_s());
         // What a slow disk has missed is missed, not made up for.

@@ -68,6 +68,8 @@ class LiveRun {
   [[nodiscard]] std::vector<std::uint64_t> tap_drops() const;
   /// What the world took from a node's program while it flew: motors that stop later were told to.
   [[nodiscard]] std::optional<shm::CommandTally> commands(std::uint32_t node) const;
+  /// The longest time in flight for which nobody looked after the run.
+  [[nodiscard]] std::chrono::nanoseconds longest_gap() const noexcept { return longest_gap_; }
   /// The nodes' inits, by node, for the registry; empty before they are built.
   [[nodiscard]] std::vector<pid_t> init_pids() const;
   /// Told once the nodes are there.
@@ -108,6 +110,7 @@ class LiveRun {
   int signals_seen_{0};
   FlightEnd end_;
   std::vector<std::optional<shm::CommandTally>> commands_;  // by node, once the flight is over
+  std::chrono::nanoseconds longest_gap_{0};
   std::string send_stamps_text_;
   std::function<void()> on_nodes_built_;
   std::int64_t start_monotonic_ns_{0};

@@ -130,10 +130,7 @@ int run_command(const RunArguments& arguments) {
   });
   Sampler sampler{plan, run, metrics};
   if (run.set_up()) {
-    run.fly([&](double sim_time_s) {
-      facts.note_supervision();
-      sampler.sample(sim_time_s);
-    });
+    run.fly([&](double sim_time_s) { sampler.sample(sim_time_s); });
   }
 
   facts.suspended = std::chrono::nanoseconds{suspended_ns() - suspended_before_ns};

@@ -133,6 +133,14 @@ class Interrupt(unittest.TestCase):
             self.assertGreater(max(b - a for a, b in zip(times, times[1:])), 7.5)
             self.assertGreater(times[-1], 11.5)
 
+    def test_seldom_metrics_are_no_gap(self):
+        with Run(small_fleet("5 s"), "--no-page", "--set", "record.metrics_period=2 s") as run:
+            self.assertIn(run.wait(30), (0, 3), run.stderr)
+            check = next(check for check in run.fidelity["checks"]
+                         if check["name"] == "supervision_gap")
+            self.assertLess(check["measured"], 1000)
+            self.assertEqual(check["verdict"], "VALID")
+
 
 if __name__ == "__main__":
     unittest.main()
