@@ -150,7 +150,6 @@ void LiveRun::fly(const OnSample& on_sample) {
         next_progress = now + kProgressPeriod;
       }
     }
-    progress.finish();
     end_.flown_s = std::chrono::duration<double>{plan_.duration}.count();
   });
   stop_all();

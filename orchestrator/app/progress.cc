@@ -37,10 +37,9 @@ void Progress::show(std::chrono::nanoseconds elapsed, const std::string& detail)
   }
 }
 
-void Progress::finish() {
+Progress::~Progress() {
   if (drawn_) {
-    print(stderr, "\n");
-    drawn_ = false;
+    std::fputc('\n', stderr);
   }
 }
 

@@ -10,11 +10,13 @@ namespace cuscus::orchestrator {
 class Progress {
  public:
   explicit Progress(std::chrono::nanoseconds duration);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  /// Leaves the line, so that other output starts on a fresh one.
+  ~Progress();
 
   /// `detail` is what else there is to say, such as "10 flying, late p99 0.04 ms".
   void show(std::chrono::nanoseconds elapsed, const std::string& detail);
-  /// Leaves the line, so that other output starts on a fresh one.
-  void finish();
 
  private:
   std::chrono::nanoseconds duration_;
