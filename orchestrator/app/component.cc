@@ -4,6 +4,12 @@
 #include <utility>
 
 namespace cuscus::orchestrator {
+namespace {
+
+/// Every sample has the state in metrics.csv.
+constexpr std::size_t kMostStateBytes = 32;
+
+}  // namespace
 
 Component::Component(boost::asio::io_context& loop, std::string name, ipc::ControlSocket socket,
                      std::function<void()> on_change)
@@ -59,7 +65,7 @@ void Component::handle(const proto::Envelope& envelope) {
       ready_ = true;
       break;
     case proto::Envelope::kStatus:
-      state_ = envelope.status().state();
+      state_ = envelope.status().state().substr(0, kMostStateBytes);
       return;
     case proto::Envelope::kReport:
       report_ = envelope.report();

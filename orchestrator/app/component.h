@@ -33,7 +33,8 @@ class Component {
 
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
   [[nodiscard]] bool is_ready() const noexcept { return ready_; }
-  /// What it said of itself in its latest heartbeat: an agent's flight state.
+  /// What it said of itself in its latest heartbeat, as far as it is brief: an agent's flight
+  /// state.
   [[nodiscard]] const std::string& state() const noexcept { return state_; }
   /// When it was last heard.
   [[nodiscard]] std::chrono::steady_clock::time_point last_heard() const noexcept {

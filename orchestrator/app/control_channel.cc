@@ -39,7 +39,11 @@ void ControlChannel::wait() {
 
 void ControlChannel::drain() {
   try {
-    while (const auto received = socket_.try_receive()) {
+    for (int messages = 0; messages < kMostMessagesAtOnce; ++messages) {
+      const auto received = socket_.try_receive();
+      if (!received) {
+        break;
+      }
       handlers_.on_message(received->envelope);
     }
   } catch (const ipc::PeerError& error) {

@@ -14,6 +14,9 @@ namespace cuscus::orchestrator {
 /// Handlers run on the loop. After on_closed nothing more comes; sending then does nothing.
 class ControlChannel {
  public:
+  /// Read in one go; then the others' turn comes, however much a process sends.
+  static constexpr int kMostMessagesAtOnce = 64;
+
   struct Handlers {
     std::function<void(const proto::Envelope&)> on_message;
     std::function<void(const std::string& why)> on_closed;

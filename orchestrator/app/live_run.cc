@@ -30,6 +30,7 @@ constexpr milliseconds kTerminateLimit{700};
 constexpr milliseconds kKillLimit{500};
 constexpr milliseconds kServiceStopLimit{1'500};
 constexpr milliseconds kProgressPeriod{200};
+constexpr milliseconds kServiceTurn{10};
 
 enum Services : std::uint32_t { kWorldService = 0, kNetsimService = 1 };
 
@@ -192,7 +193,7 @@ void LiveRun::build_nodes() {
                                              .extra_hosts = std::move(hosts),
                                              .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
                                              .on_step = [this](std::string_view) {
-                                               loop_.poll();
+                                               serve();
                                                check_trouble();
                                              }});
   if (on_nodes_built_) {
@@ -346,7 +347,14 @@ bool LiveRun::settle(milliseconds limit, const std::function<bool()>& done) {
 void LiveRun::wait_step(steady_clock::time_point deadline) {
   loop_.restart();
   loop_.run_one_until(deadline);
-  loop_.poll();  // also after the deadline, such as when this process was stopped for a while
+  serve();  // also after the deadline, such as when this process was stopped for a while
+}
+
+void LiveRun::serve() {
+  // Whoever floods its control socket always has something ready.
+  const auto enough = steady_clock::now() + kServiceTurn;
+  while (loop_.poll_one() > 0 && steady_clock::now() < enough) {
+  }
 }
 
 double LiveRun::sim_time_s() const {

@@ -94,6 +94,8 @@ class LiveRun {
   void check_trouble() const;
   void check_heartbeats();
   void wait_step(std::chrono::steady_clock::time_point deadline);
+  /// Runs what is ready, for a moment at most.
+  void serve();
   [[nodiscard]] std::string progress_text() const;
   [[nodiscard]] double sim_time_s() const;
   [[nodiscard]] posix::ChildSpecification service_specification(const char* program,

@@ -86,7 +86,11 @@ void NodeCrew::watch(std::uint32_t node) {
 
 void NodeCrew::drain(std::uint32_t node) {
   try {
-    while (const auto envelope = fleet_.nodes()[node].try_receive()) {
+    for (int messages = 0; messages < ControlChannel::kMostMessagesAtOnce; ++messages) {
+      const auto envelope = fleet_.nodes()[node].try_receive();
+      if (!envelope) {
+        break;
+      }
       if (envelope->has_exited()) {
         note_exit(envelope->exited());
       }

@@ -7,6 +7,7 @@
 //   exit0, exit3, abort   ends by itself after a second
 //   ignore-stop           carries on, whatever it is told
 //   babble                random packets on the control socket, as fast as they go
+//   flood                 valid heartbeats without end, waiting for room, and does not listen
 //   deaf                  never reads its control socket and never says Ready
 #include <sys/socket.h>
 #include <unistd.h>
@@ -72,6 +73,8 @@ class Hostile {
       scribble(step);
     } else if (mode_ == "babble") {
       babble(step);
+    } else if (mode_ == "flood") {
+      flood();
     } else if (now_ns >= kPeaceful_ns) {
       end();
     }
@@ -101,6 +104,15 @@ class Hostile {
       });
       static_cast<void>(
           ::send(session_.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
+    }
+  }
+
+  [[noreturn]] void flood() {
+    proto::Envelope envelope;
+    envelope.mutable_status()->set_state(std::string(1000, 'x'));
+    const std::string bytes = envelope.SerializeAsString();
+    for (;;) {
+      static_cast<void>(::send(session_.fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL));
     }
   }
 

@@ -133,6 +133,10 @@ exec {bin_folder}/real-agent
     def test_babble_on_the_control_socket(self):
         self.fly_with_hostile_agent("babble")
 
+    def test_flood_of_heartbeats(self):
+        _, program, _ = self.fly_with_hostile_agent("flood")
+        self.assertEqual(program["signal"], 9)
+
     def test_never_ready(self):
         bin_folder = self.programs_with_hostile_agent("deaf")
         traces = Traces()

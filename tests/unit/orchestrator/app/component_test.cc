@@ -2,6 +2,7 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <string>
 
 #include "common/ipc/child_session.h"
 #include "common/posix/shared_memory.h"
@@ -51,6 +52,22 @@ TEST_CASE("a component is configured, becomes ready, reports and goes") {
   CHECK(talk.component.report()->world().steps() == 7);
   CHECK(talk.component.is_gone());
   CHECK(talk.changes == 3);
+}
+
+TEST_CASE("a component that floods the orchestrator is read in turns, and its state is cut") {
+  Conversation talk;
+  for (int beat = 0; beat < 100; ++beat) {
+    talk.child->beat(beat, std::to_string(beat));
+  }
+
+  talk.loop.run_one();
+  CHECK(talk.component.state() == std::to_string(ControlChannel::kMostMessagesAtOnce - 1));
+  talk.loop.poll();
+  CHECK(talk.component.state() == "99");
+
+  talk.child->beat(100, std::string(1000, 'x'));
+  talk.loop.poll();
+  CHECK(talk.component.state() == std::string(32, 'x'));
 }
 
 TEST_CASE("a component that fails says why, and sending to it afterwards does no harm") {
