@@ -126,16 +126,17 @@ void NodeCrew::note_exit(const proto::Exited& exited) {
   }
   const bool failed = !program.status || !program.status->succeeded();
   const bool own = program.plan->kind != ProgramKind::kCommand;
-  if (!stopping_ && (failed || own) && program.plan->on_exit != scenario::OnExit::kIgnore) {
+  // A program that cannot be started is a mistake in the scenario, whatever its end would mean.
+  const bool mistake = !program.error.empty();
+  const bool ignored = program.plan->on_exit == scenario::OnExit::kIgnore && !mistake;
+  if (!stopping_ && (failed || own) && !ignored) {
     std::string how =
         program.status ? "ended: " + text_of(*program.status) : "did not start: " + program.error;
     if (program.component && program.component->failure()) {
       how += ": " + *program.component->failure();
     }
     spdlog::warn("{} {} at {:.3f} s", program.name, how, program.ended_at_s);
-    // A program that cannot be started is a mistake in the scenario, whatever its end would mean.
-    if (trouble_.empty() &&
-        (program.plan->on_exit == scenario::OnExit::kFail || !program.error.empty())) {
+    if (trouble_.empty() && (program.plan->on_exit == scenario::OnExit::kFail || mistake)) {
       trouble_ = program.name + " " + how;
     }
   }

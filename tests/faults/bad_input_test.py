@@ -67,6 +67,17 @@ class BadInput(unittest.TestCase):
         self.scenario_refused(put("command", ["no-such-program"]), "/fleet/0/command/0",
                               "no-such-program", "allowed", commands=("run",))
 
+    def test_command_that_does_not_start(self):
+        # Its interpreter is missing, which only the kernel finds out.
+        script = self.folder / "script"
+        script.write_text("#!/no/such/interpreter\n")
+        script.chmod(0o755)
+        for on_exit in ("ignore", "mark"):
+            scenario = small_fleet("30 s", command=[str(script)], on_exit=on_exit)
+            with self.subTest(on_exit=on_exit), Run(scenario, "--no-page") as run:
+                self.assertEqual(run.wait(20), 1, run.stderr)
+                self.assertRegex(run.summary["end_reason"], "uav. command did not start")
+
     def test_files(self):
         (self.folder / "folder.json").mkdir()
         for command in ("check", "run"):
