@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "common/posix/check.h"
+#include "orchestrator/results/run_directory.h"
 
 namespace cuscus::orchestrator {
 namespace {
@@ -53,6 +55,32 @@ RegisteredRun from_json(const json& value) {
   return run;
 }
 
+/// The registry's folder, locked until the descriptor goes; nothing when there is none. Who adds or
+/// removes entries has it alone (LOCK_EX), so that nobody takes an entry in the making for a dead
+/// one; who reads shares it (LOCK_SH).
+/// @throws std::system_error when it is somebody else's.
+UniqueFd lock_registry(const fs::path& folder, int operation) {
+  UniqueFd registry{::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC)};
+  if (!registry && errno == ENOENT) {
+    return registry;
+  }
+  const std::string attempt = "open the run registry " + folder.native();
+  if (!registry) {
+    posix::throw_errno(attempt);
+  }
+  struct stat status {};
+  check("fstat of the run registry", ::fstat(registry.get(), &status));
+  if (status.st_uid != ::geteuid()) {
+    errno = EPERM;
+    posix::throw_errno(folder.native() + " is not a folder of this user's");
+  }
+  int result = -1;
+  while ((result = ::flock(registry.get(), operation)) != 0 && errno == EINTR) {
+  }
+  check("lock the run registry", result);
+  return registry;
+}
+
 /// Whether a living process holds the entry's lock.
 bool is_alive(const fs::path& entry) {
   const UniqueFd lock{::open((entry / kLockName).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)};
@@ -62,10 +90,7 @@ bool is_alive(const fs::path& entry) {
 std::optional<RegisteredRun> read_entry(const fs::path& entry) {
   std::ifstream file{entry / kStateName};
   const json value = json::parse(file, nullptr, false);
-  if (value.is_discarded()) {
-    return std::nullopt;  // being entered at this moment
-  }
-  return from_json(value);
+  return value.is_discarded() ? std::nullopt : std::optional{from_json(value)};
 }
 
 /// The entries there are, alive or not; none when the folder does not exist.
@@ -87,15 +112,25 @@ RegistryEntry::RegistryEntry(fs::path folder, UniqueFd lock)
     : folder_{std::move(folder)}, lock_{std::move(lock)} {}
 
 RegistryEntry::~RegistryEntry() {
-  if (lock_) {
-    std::error_code ignored;  // the next start sweeps what cannot be removed now
-    fs::remove_all(folder_, ignored);
+  if (!lock_) {
+    return;
+  }
+  try {
+    const UniqueFd registry = lock_registry(folder_.parent_path(), LOCK_EX);
+    fs::remove_all(folder_);
+  } catch (const std::exception&) {
+    return;  // the next start sweeps what cannot be removed now
   }
 }
 
 void RegistryEntry::publish(const RegisteredRun& run) const {
   const fs::path draft = folder_ / "run.json.new";
-  std::ofstream{draft} << to_json(run).dump(2) << '\n';
+  {
+    const UniqueFd file{
+        check("make the run's state",
+              ::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644))};
+    write_all(file.get(), to_json(run).dump(2) + '\n');
+  }
   fs::rename(draft, folder_ / kStateName);
 }
 
@@ -112,24 +147,28 @@ fs::path RunRegistry::default_folder() {
 
 RegistryEntry RunRegistry::enter(const RegisteredRun& run) const {
   fs::create_directories(folder_);
-  struct stat parent {};
-  check("lstat of the run registry", ::lstat(folder_.c_str(), &parent));
-  if (!S_ISDIR(parent.st_mode) || parent.st_uid != ::geteuid()) {
-    errno = EPERM;
-    posix::throw_errno(folder_.native() + " is not a folder of this user's");
-  }
+  const UniqueFd registry = lock_registry(folder_, LOCK_EX);
   const fs::path entry = folder_ / run.run_id;
   check("make the run's entry", ::mkdir(entry.c_str(), 0755));
   UniqueFd lock{check("make the run's lock", ::open((entry / kLockName).c_str(),
                                                     O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644))};
   check("lock the run's entry", ::flock(lock.get(), LOCK_EX | LOCK_NB));
   RegistryEntry held{entry, std::move(lock)};
-  held.publish(run);
+  try {
+    held.publish(run);
+  } catch (const std::exception&) {
+    // Here, since `held` would wait for the registry's lock, which is ours.
+    std::error_code ignored;
+    fs::remove_all(entry, ignored);
+    held.lock_.reset();
+    throw;
+  }
   return held;
 }
 
 std::vector<RegisteredRun> RunRegistry::runs() const {
   std::vector<RegisteredRun> alive;
+  const UniqueFd registry = lock_registry(folder_, LOCK_SH);
   for (const auto& entry : entries_of(folder_)) {
     if (!is_alive(entry)) {
       continue;
@@ -143,11 +182,14 @@ std::vector<RegisteredRun> RunRegistry::runs() const {
 
 std::vector<std::string> RunRegistry::sweep() const {
   std::vector<std::string> removed;
+  const UniqueFd registry = lock_registry(folder_, LOCK_EX);
   for (const auto& entry : entries_of(folder_)) {
     if (!is_alive(entry)) {
-      std::error_code ignored;  // somebody else may be sweeping too
-      fs::remove_all(entry, ignored);
-      removed.push_back(entry.filename());
+      std::error_code error;  // what cannot be removed now is left for the next sweep
+      fs::remove_all(entry, error);
+      if (!error) {
+        removed.push_back(entry.filename());
+      }
     }
   }
   return removed;

@@ -37,7 +37,7 @@ class RegistryEntry {
   RegistryEntry& operator=(const RegistryEntry&) = delete;
   ~RegistryEntry();
 
-  /// Replaces what others see of the run.
+  /// Replaces what others see of the run. @throws std::system_error; they then see the old state.
   void publish(const RegisteredRun& run) const;
 
  private:
@@ -59,7 +59,8 @@ class RunRegistry {
   explicit RunRegistry(std::filesystem::path folder) : folder_{std::move(folder)} {}
 
   /// Enters a run and locks its entry.
-  /// @throws std::system_error when the entry exists or cannot be made.
+  /// @throws std::system_error when the entry exists or cannot be made, as do all three when the
+  /// folder is somebody else's.
   [[nodiscard]] RegistryEntry enter(const RegisteredRun& run) const;
 
   /// The runs whose orchestrator lives, by run id.

@@ -7,7 +7,9 @@
 #include <csignal>
 #include <filesystem>
 #include <optional>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "common/posix/check.h"
 
@@ -75,6 +77,49 @@ TEST_CASE("what a killed run has left is not listed, and swept") {
   CHECK(registry.runs().empty());
   CHECK(registry.sweep() == std::vector<std::string>{"dead"});
   CHECK_FALSE(fs::exists(scratch.path() / "cuscus" / "dead"));
+}
+
+TEST_CASE("runs that come and go are never taken for dead, nor hindered by who looks") {
+  const Scratch scratch;
+  const RunRegistry registry{scratch.path() / "cuscus"};
+  std::size_t swept = 0;
+  std::jthread sweeper{[&](const std::stop_token& over) {
+    while (!over.stop_requested()) {
+      swept += registry.sweep().size();
+    }
+  }};
+  std::jthread reader{[&](const std::stop_token& over) {
+    while (!over.stop_requested()) {
+      static_cast<void>(registry.runs());
+    }
+  }};
+
+  for (int i = 0; i < 100; ++i) {
+    const std::string id = std::to_string(i);
+    const auto entry = registry.enter(run_named(id));
+    entry.publish(run_named(id));
+    const auto runs = registry.runs();
+    if (runs.size() != 1 || runs[0].run_id != id) {
+      FAIL_CHECK("run " << id << " is not listed");
+    }
+  }
+  sweeper.request_stop();
+  sweeper.join();
+
+  CHECK(swept == 0);
+}
+
+TEST_CASE("a registry behind a symbolic link is refused") {
+  const Scratch scratch;
+  fs::create_directory(scratch.path() / "elsewhere");
+  fs::create_directory(scratch.path() / "elsewhere" / "dead");
+  fs::create_directory_symlink(scratch.path() / "elsewhere", scratch.path() / "cuscus");
+  const RunRegistry registry{scratch.path() / "cuscus"};
+
+  CHECK_THROWS_AS(registry.runs(), std::system_error);
+  CHECK_THROWS_AS(registry.sweep(), std::system_error);
+  CHECK_THROWS_AS(registry.enter(run_named("one")), std::system_error);
+  CHECK(fs::exists(scratch.path() / "elsewhere" / "dead"));
 }
 
 TEST_CASE("a run id is given once") {
