@@ -153,7 +153,9 @@ void LiveRun::fly(const OnSample& on_sample) {
     }
     end_.flown_s = std::chrono::duration<double>{plan_.duration}.count();
   });
-  stop_all();
+  const double flown_s = end_.flown_s;
+  guarded([&] { stop_all(); });
+  end_.flown_s = flown_s;
 }
 
 void LiveRun::start_world() {

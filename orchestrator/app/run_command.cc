@@ -28,9 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::system_clock;
 
-RunDirectory create_run_directory(const RunArguments& arguments, const std::string& run_id) {
+RunDirectory create_run_directory(const fs::path& path) {
   try {
-    return RunDirectory::create(arguments.out.value_or(fs::path{"runs"} / run_id));
+    return RunDirectory::create(path);
   } catch (const std::system_error& error) {
     throw UsageError{error.what()};
   }
@@ -61,6 +61,18 @@ int exit_code_of(const FlightEnd& end, Verdict verdict) {
       break;
   }
   return verdict == Verdict::kInvalid ? kExitInvalid : kExitDone;
+}
+
+/// False when it could not be written, and why is said.
+bool save(const RunDirectory& directory, std::string_view name,
+          const nlohmann::ordered_json& content) {
+  try {
+    directory.write_file(std::string{name}, content.dump(2) + "\n");
+    return true;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return false;
+  }
 }
 
 void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& fidelity,
@@ -103,11 +115,11 @@ int run_command(const RunArguments& arguments) {
   }
   const std::string run_id =
       make_run_id(plan.scenario_name, system_clock::now(), std::random_device{}());
-  const RunDirectory directory = create_run_directory(arguments, run_id);
+  const fs::path results = fs::absolute(arguments.out.value_or(fs::path{"runs"} / run_id));
+  const auto entry = registry.enter(registered(plan, run_id, arguments.scenario.file, results, {}));
+  const RunDirectory directory = create_run_directory(results);
   directory.write_file(std::string{kResolvedScenarioFile},
                        resolved_scenario(scenario).dump(2) + "\n");
-  const auto entry =
-      registry.enter(registered(plan, run_id, arguments.scenario.file, directory.path(), {}));
 
   const bool page = static_cast<bool>(page_listener);
   print(stderr, "run {}: {} nodes for {:.0f} s{}\n", run_id, plan.nodes.size(),
@@ -137,9 +149,14 @@ int run_command(const RunArguments& arguments) {
   const FidelityInputs inputs = fidelity_inputs(plan, run, facts);
   const Fidelity fidelity = judge(inputs);
   RunOutcome outcome = run_outcome(plan, run, sampler, facts);
+  outcome.metrics_rows_dropped = metrics.rows_dropped();
   outcome.exit_code = exit_code_of(run.end(), fidelity.verdict);
-  directory.write_file(std::string{kFidelityFile}, to_json(fidelity, inputs).dump(2) + "\n");
-  directory.write_file(std::string{kSummaryFile}, to_json(outcome, fidelity).dump(2) + "\n");
+  if (!save(directory, kFidelityFile, to_json(fidelity, inputs))) {
+    outcome.exit_code = kExitFailed;
+  }
+  if (!save(directory, kSummaryFile, to_json(outcome, fidelity))) {
+    outcome.exit_code = kExitFailed;
+  }
   give_to_caller(directory.path());
   print_end(run.end(), outcome, fidelity, directory.path());
   return outcome.exit_code;

@@ -54,7 +54,7 @@ void Sampler::sample(double sim_time_s) {
   }
   metrics_.flush();
   if (const auto error = metrics_.take_error()) {
-    spdlog::error("metrics.csv: {}; the run goes on without it", *error);
+    spdlog::error("{}", *error);
   }
 }
 

@@ -100,6 +100,7 @@ Json to_json(const RunOutcome& run, const Fidelity& fidelity) {
           {"exit_code", run.exit_code},
           {"verdict", name_of(fidelity.verdict)},
           {"verdict_reasons", fidelity.reasons},
+          {"metrics_rows_dropped", run.metrics_rows_dropped},
           {"formation_error", error_json(run.formation_error)},
           {"radio_total", radio_total(run.nodes)},
           {"ground_station", run.ground_station ? json_of(*run.ground_station) : Json(nullptr)},

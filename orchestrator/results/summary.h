@@ -63,7 +63,8 @@ struct RunOutcome {
   std::string end_reason;          ///< "duration reached", "SIGINT", "netsim: killed by ..."
   /// What ran, by name: "cuscus", "kernel".
   std::map<std::string, std::string> versions;
-  int exit_code{};  ///< Of `cuscus`.
+  int exit_code{};                       ///< Of `cuscus`.
+  std::uint64_t metrics_rows_dropped{};  ///< That metrics.csv should have and has not.
   std::vector<NodeOutcome> nodes;
   std::optional<FormationErrorSummary> formation_error;  ///< Of all UAVs together.
   std::optional<proto::GroundStationReport> ground_station;

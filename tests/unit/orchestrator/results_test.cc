@@ -343,6 +343,7 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   run.seed = 7;
   run.versions["cuscus"] = "0.1.0";
   run.simulated = 1500ms;
+  run.metrics_rows_dropped = 3;
   NodeOutcome first;
   first.name = "uav0";
   first.radio = shm::RadioTally{};
@@ -374,6 +375,7 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   CHECK(json.at("verdict") == "DEGRADED");
   CHECK(json.at("verdict_reasons").at(0) == "late");
   CHECK(json.at("simulated_s") == 1.5);
+  CHECK(json.at("metrics_rows_dropped") == 3);
   CHECK(json.at("versions").at("cuscus") == "0.1.0");
   CHECK(json.at("radio_total").at("offered") == 11);
   CHECK(json.at("radio_total").at("received") == 5);
