@@ -80,9 +80,9 @@ bool is_ignored(int signal_number) {
 }
 
 posix::UniqueFd open_service_log(const std::filesystem::path& path) {
-  return posix::UniqueFd{
-      posix::check("open " + path.native(),
-                   ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644))};
+  return posix::UniqueFd{posix::check(
+      "open " + path.native(),
+      ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644))};
 }
 
 }  // namespace

@@ -5,13 +5,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
 #include <csignal>
-#include <cstdlib>
-#include <string_view>
 #include <utility>
 
 #include "common/posix/check.h"
+#include "orchestrator/app/ownership.h"
 #include "orchestrator/app/service.h"
 #include "orchestrator/node/node_identity.h"
 
@@ -24,19 +22,6 @@ posix::UniqueFd open_log(const std::filesystem::path& path) {
   return posix::UniqueFd{posix::check(
       "open " + path.native(),
       ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644))};
-}
-
-std::optional<std::uint32_t> number_in_environment(const char* name) {
-  // Read while there is one thread.
-  const char* const text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
-  if (text == nullptr) {
-    return std::nullopt;
-  }
-  const std::string_view digits{text};
-  std::uint32_t number = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  return error == std::errc{} && end == digits.data() + digits.size() ? std::optional{number}
-                                                                      : std::nullopt;
 }
 
 std::string program_name(const NodePlan& node, const Program& program) {
@@ -152,11 +137,9 @@ posix::ChildIdentity NodeCrew::identity_of(const NodeProgram& program) const {
   if (program.plan->from_scenario) {
     // What the user brings may live in folders that only the user can read, and its files should
     // belong to the user.
-    const auto uid = number_in_environment("SUDO_UID");
-    const auto gid = number_in_environment("SUDO_GID");
-    if (uid && gid && *uid != 0) {
-      identity.uid = *uid;
-      identity.gid = *gid;
+    if (const auto user = sudo_caller()) {
+      identity.uid = user->uid;
+      identity.gid = user->gid;
     }
   }
   return identity;

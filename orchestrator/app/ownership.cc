@@ -2,29 +2,35 @@
 
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdlib>
-#include <system_error>
+#include <string_view>
 
 namespace cuscus::orchestrator {
+namespace {
 
-void give_to_caller(const std::filesystem::path& folder) {
+std::optional<std::uint32_t> number_in_environment(const char* name) {
   // Read while there is one thread.
-  const char* const uid = std::getenv("SUDO_UID");  // NOLINT(concurrency-mt-unsafe)
-  const char* const gid = std::getenv("SUDO_GID");  // NOLINT(concurrency-mt-unsafe)
-  if (uid == nullptr || gid == nullptr || ::geteuid() != 0) {
-    return;
+  const char* const text = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
+  if (text == nullptr) {
+    return std::nullopt;
   }
-  const auto user = static_cast<uid_t>(std::strtoul(uid, nullptr, 10));
-  const auto group = static_cast<gid_t>(std::strtoul(gid, nullptr, 10));
-  const auto give = [&](const std::filesystem::path& path) {
-    // A file that stays root's can still be read; nothing is lost.
-    static_cast<void>(::lchown(path.c_str(), user, group) == 0);
-  };
-  give(folder);
-  std::error_code error;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator{folder, error}) {
-    give(entry.path());
+  const std::string_view digits{text};
+  std::uint32_t number = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  return error == std::errc{} && end == digits.data() + digits.size() ? std::optional{number}
+                                                                      : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Owner> sudo_caller() {
+  const auto uid = number_in_environment("SUDO_UID");
+  const auto gid = number_in_environment("SUDO_GID");
+  if (::geteuid() != 0 || !uid || !gid || *uid == 0) {
+    return std::nullopt;
   }
+  return Owner{.uid = *uid, .gid = *gid};
 }
 
 }  // namespace cuscus::orchestrator

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <filesystem>
+#include <optional>
+
+#include "orchestrator/results/run_directory.h"
 
 namespace cuscus::orchestrator {
 
-/// Under sudo, makes a folder and all in it the property of the user who called sudo.
-void give_to_caller(const std::filesystem::path& folder);
+/// Who called sudo, when an ordinary user did: results are theirs. To be asked by the only thread.
+[[nodiscard]] std::optional<Owner> sudo_caller();
 
 }  // namespace cuscus::orchestrator

@@ -28,9 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 using std::chrono::system_clock;
 
-RunDirectory create_run_directory(const fs::path& path) {
+RunDirectory create_run_directory(const fs::path& path, std::optional<Owner> owner) {
   try {
-    return RunDirectory::create(path);
+    return RunDirectory::create(path, owner);
   } catch (const std::system_error& error) {
     throw UsageError{error.what()};
   }
@@ -62,6 +62,24 @@ int exit_code_of(const FlightEnd& end, Verdict verdict) {
   }
   return verdict == Verdict::kInvalid ? kExitInvalid : kExitDone;
 }
+
+/// Gives a run's results to `owner` when it goes, however the run has ended.
+class Handover {
+ public:
+  Handover(const RunDirectory& directory, std::optional<Owner> owner)
+      : directory_{directory}, owner_{owner} {}
+  Handover(const Handover&) = delete;
+  Handover& operator=(const Handover&) = delete;
+  ~Handover() {
+    if (owner_) {
+      directory_.give_to(*owner_);
+    }
+  }
+
+ private:
+  const RunDirectory& directory_;
+  std::optional<Owner> owner_;
+};
 
 /// False when it could not be written, and why is said.
 bool save(const RunDirectory& directory, std::string_view name,
@@ -117,7 +135,8 @@ int run_command(const RunArguments& arguments) {
       make_run_id(plan.scenario_name, system_clock::now(), std::random_device{}());
   const fs::path results = fs::absolute(arguments.out.value_or(fs::path{"runs"} / run_id));
   const auto entry = registry.enter(registered(plan, run_id, arguments.scenario.file, results, {}));
-  const RunDirectory directory = create_run_directory(results);
+  const RunDirectory directory = create_run_directory(results, sudo_caller());
+  const Handover handover{directory, sudo_caller()};
   directory.write_file(std::string{kResolvedScenarioFile},
                        resolved_scenario(scenario).dump(2) + "\n");
 
@@ -157,7 +176,6 @@ int run_command(const RunArguments& arguments) {
   if (!save(directory, kSummaryFile, to_json(outcome, fidelity))) {
     outcome.exit_code = kExitFailed;
   }
-  give_to_caller(directory.path());
   print_end(run.end(), outcome, fidelity, directory.path());
   return outcome.exit_code;
 }

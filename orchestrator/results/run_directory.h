@@ -1,7 +1,10 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -18,15 +21,23 @@ namespace cuscus::orchestrator {
 /// "2026-01-31T12:00:00Z"
 [[nodiscard]] std::string utc_text(std::chrono::system_clock::time_point time);
 
+/// Whom files belong to.
+struct Owner {
+  uid_t uid{};
+  gid_t gid{};
+};
+
 /// The folder that one run writes its results into.
 ///
 /// It did not exist before, and nothing in it is reached through a symbolic link: all work goes
 /// through a descriptor of the folder itself, so that nobody can put another one in its place.
 class RunDirectory {
  public:
-  /// Makes `path` (mode 0755) and its logs/ folder; the parents are made when they are missing.
+  /// Makes `path` (mode 0755) and its logs/ folder; the parents are made when they are missing, and
+  /// given to `parents_owner` when there is one.
   /// @throws std::system_error naming the folder, when it exists, as anything, or cannot be made.
-  [[nodiscard]] static RunDirectory create(const std::filesystem::path& path);
+  [[nodiscard]] static RunDirectory create(const std::filesystem::path& path,
+                                           std::optional<Owner> parents_owner = std::nullopt);
 
   /// Absolute.
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
@@ -42,6 +53,9 @@ class RunDirectory {
 
   /// A new folder `name` in it.
   void create_folder(const std::string& name) const;
+
+  /// Gives the folder and all in it away. What the system refuses to give stays ours.
+  void give_to(Owner owner) const noexcept;
 
  private:
   RunDirectory(std::filesystem::path path, posix::UniqueFd fd)

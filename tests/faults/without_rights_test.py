@@ -89,6 +89,19 @@ class WithoutRights(unittest.TestCase):
             "64", "ulimit -n")
         self.check_refused(self.start(*TUN_FOR_ALL, *few, *AS_NOBODY), "64", "ulimit -n")
 
+    def test_under_sudo_results_are_the_callers(self):
+        self.scenario.write_text(json.dumps(small_fleet("1 s", command=["true"])))
+        done = subprocess.run(
+            [self.bin / "cuscus", "run", self.scenario, "--no-page"], capture_output=True, text=True,
+            timeout=60, cwd=self.home, stdin=subprocess.DEVNULL,
+            env={"PATH": os.environ["PATH"], "SUDO_UID": str(NOBODY), "SUDO_GID": str(NOBODY)})
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+        made = sorted(self.home.rglob("*"))
+        self.assertIn("summary.json", [path.name for path in made])
+        self.assertIn("uav0-command.log", [path.name for path in made])
+        for path in made:
+            self.assertEqual((path.stat().st_uid, path.stat().st_gid), (NOBODY, NOBODY), path)
+
     def test_user_namespace_flies(self):
         done = self.start(*TUN_FOR_ALL, *AS_NOBODY)
         self.assertIn(done.returncode, (0, 3), done.stderr)
