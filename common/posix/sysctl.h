@@ -7,6 +7,7 @@ namespace cuscus::posix {
 
 /// Writes `value` to /proc/sys/`path`, such as "net/ipv4/ip_forward". Below net/ this changes the
 /// calling thread's network namespace. False when the kernel has no such key.
+/// A read-only /proc/sys is no obstacle for who may mount a procfs.
 /// @throws std::system_error naming the key and the value when it may not be written.
 bool write_sysctl(const std::string& path, std::string_view value);
 

@@ -30,9 +30,9 @@ void check_tun() {
   const posix::UniqueFd tun{::open("/dev/net/tun", O_RDWR | O_CLOEXEC)};
   if (!tun) {
     throw UsageError{fmt::format(
-        "/dev/net/tun cannot be opened: {}. Load it with 'modprobe tun'; in a container, start it "
-        "with '--device /dev/net/tun --cap-add NET_ADMIN --cap-add SYS_ADMIN'",
-        std::strerror(errno))};  // NOLINT(concurrency-mt-unsafe): one thread
+        "/dev/net/tun cannot be opened: {}. Load it with 'modprobe tun'; in a container, {}",
+        std::strerror(errno),  // NOLINT(concurrency-mt-unsafe): one thread
+        node::kContainerRemedy)};
   }
 }
 

@@ -3,11 +3,10 @@
 #include <sched.h>
 #include <sys/utsname.h>
 
+#include <array>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <thread>
 #include <variant>
 
@@ -40,7 +39,7 @@ EnvironmentCheck check_kernel() {
 EnvironmentCheck check_rights() {
   const auto rights = acquire_rights();
   if (const auto* const missing = std::get_if<netlink::NotAvailable>(&rights)) {
-    return {"rights", Result::kFail, missing->reason, "run with sudo"};
+    return {"rights", Result::kFail, missing->reason, ""};
   }
   if (std::get<Rights>(rights) == Rights::kUserNamespace) {
     return {"rights", Result::kWarning,
@@ -88,6 +87,17 @@ EnvironmentCheck check_links() {
   return check;
 }
 
+EnvironmentCheck check_node() {
+  return attempt("a node", "in a container: " + std::string{kContainerRemedy}, [] {
+    const std::array networks{NodeNetwork{.name = "doctor",
+                                          .mac = {2, 0, 0, 0, 0, 1},
+                                          .address = {.address = {10, 0, 0, 1}, .length = 24},
+                                          .attachment = Attachment::kDirect}};
+    const Fleet fleet{networks, {}};
+    return std::string{"can be built"};
+  });
+}
+
 EnvironmentCheck check_send_stamps() {
   const auto ring = netlink::SendStampRing::create(64 * 1024);
   if (const auto* const missing = std::get_if<netlink::NotAvailable>(&ring)) {
@@ -119,23 +129,6 @@ EnvironmentCheck check_open_files(std::size_t nodes) {
             "raise the hard limit (ulimit -Hn, LimitNOFILE=, /etc/security/limits.conf)"};
   }
   return {"open files", Result::kOk, text, ""};
-}
-
-EnvironmentCheck check_cgroups() {
-  std::ifstream file{"/proc/self/mounts"};
-  const std::string mounts{std::istreambuf_iterator<char>{file}, {}};
-  switch (cgroup_layout(mounts)) {
-    case CgroupLayout::kVersion2:
-      return {"control groups", Result::kOk, "version 2", ""};
-    case CgroupLayout::kHybrid:
-      return {"control groups", Result::kOk, "version 1, and a version 2 beside it", ""};
-    case CgroupLayout::kVersion1:
-      return {"control groups", Result::kOk, "version 1", ""};
-    case CgroupLayout::kNone:
-      break;
-  }
-  return {"control groups", Result::kWarning, "none mounted: limits fall back to rlimits",
-          "mount a cgroup2 file system on /sys/fs/cgroup"};
 }
 
 EnvironmentCheck check_cores() {
@@ -172,11 +165,11 @@ std::vector<EnvironmentCheck> check_environment(std::size_t nodes) {
   if (checks.back().result != Result::kFail) {
     checks.push_back(check_tap());
     checks.push_back(check_links());
+    checks.push_back(check_node());
     checks.push_back(check_send_stamps());
   }
   checks.push_back(check_realtime());
   checks.push_back(check_open_files(nodes));
-  checks.push_back(check_cgroups());
   checks.push_back(check_cores());
   checks.push_back(check_bridge_filter());
   checks.push_back(check_ipv6());

@@ -25,10 +25,6 @@ struct EnvironmentCheck {
 /// nothing outside the calling process, which it may move into a user namespace (acquire_rights()).
 [[nodiscard]] std::vector<EnvironmentCheck> check_environment(std::size_t nodes);
 
-/// Which control group hierarchies a mount table has (/proc/self/mounts).
-enum class CgroupLayout { kNone, kVersion1, kHybrid, kVersion2 };
-[[nodiscard]] CgroupLayout cgroup_layout(std::string_view mounts);
-
 /// A kernel's major and minor number, of uname -r such as "6.1.0-18-amd64"; zeros when it has none.
 struct KernelVersion {
   unsigned major{};

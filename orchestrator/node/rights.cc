@@ -43,18 +43,20 @@ std::variant<Rights, netlink::NotAvailable> acquire_rights() {
       posix::has_capability(CAP_NET_ADMIN)) {
     return Rights::kRoot;
   }
+  const bool container = ::geteuid() == 0;
+  const std::string who = container ? "root without CAP_SYS_ADMIN and CAP_NET_ADMIN" : "not root";
+  const std::string remedy = container ? std::string{kContainerRemedy} : "run with sudo";
   if (const posix::UniqueFd tun{::open("/dev/net/tun", O_RDWR | O_CLOEXEC)}; !tun) {
-    return netlink::NotAvailable{
-        std::string{"not root, and /dev/net/tun cannot be opened without ("} +
-        std::generic_category().message(errno) +
-        "): run with sudo, or make the device accessible (chmod 0666 /dev/net/tun)"};
+    return netlink::NotAvailable{who + ", and /dev/net/tun cannot be opened without (" +
+                                 std::generic_category().message(errno) + "): " + remedy +
+                                 ", or make the device accessible (chmod 0666 /dev/net/tun)"};
   }
   try {
     enter_user_namespace();
   } catch (const std::exception& error) {
     return netlink::NotAvailable{
-        std::string{"not root, and user namespaces do not work for this user ("} + error.what() +
-        "): run with sudo, or allow them (sysctl kernel.unprivileged_userns_clone=1, "
+        who + ", and user namespaces do not work for this user (" + error.what() + "): " + remedy +
+        ", or allow them (sysctl kernel.unprivileged_userns_clone=1, "
         "kernel.apparmor_restrict_unprivileged_userns=0, user.max_user_namespaces)"};
   }
   return Rights::kUserNamespace;

@@ -1,10 +1,16 @@
 #pragma once
 
+#include <string_view>
 #include <variant>
 
 #include "orchestrator/netlink/send_stamps.h"
 
 namespace cuscus::node {
+
+/// What a container needs for runs.
+inline constexpr std::string_view kContainerRemedy =
+    "start it with '--privileged', or with '--device /dev/net/tun --cap-add NET_ADMIN --cap-add "
+    "SYS_ADMIN --security-opt systempaths=unconfined --security-opt apparmor=unconfined'";
 
 /// By what right the calling process makes namespaces and links.
 enum class Rights {
@@ -15,9 +21,8 @@ enum class Rights {
 /// Takes what is to be had. An ordinary user's process moves into a new user namespace, in which
 /// its uid and gid are 0; in there links and namespaces work as for root, but
 ///  - there is one uid: programs run as it (ChildIdentity{0, 0}), without capabilities, and are
-///  kept
-///    apart by their namespaces alone;
-///  - SCHED_FIFO, cgroups and BPF stay the machine's, so that send stamps are not available;
+///    kept apart by their namespaces alone;
+///  - SCHED_FIFO and BPF stay the machine's, so that send stamps are not available;
 ///  - /dev/net/tun must be readable and writable for the user, as it is on most distributions.
 /// Call before the first thread starts; once.
 ///

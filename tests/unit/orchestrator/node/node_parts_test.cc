@@ -20,18 +20,6 @@ TEST_CASE("the table of names has localhost, then the fleet") {
         "10.0.0.200\tgcs\n");
 }
 
-TEST_CASE("the layout of control groups is read from the mount table") {
-  const std::string other = "proc /proc proc rw 0 0\n/dev/sda1 /cgroup ext4 rw 0 0\n";
-  const std::string first = "cgroup /sys/fs/cgroup/cpu cgroup rw,cpu 0 0\n";
-  const std::string second = "cgroup2 /sys/fs/cgroup cgroup2 rw 0 0\n";
-
-  CHECK(cgroup_layout("") == CgroupLayout::kNone);
-  CHECK(cgroup_layout(other) == CgroupLayout::kNone);
-  CHECK(cgroup_layout(other + first) == CgroupLayout::kVersion1);
-  CHECK(cgroup_layout(second + other) == CgroupLayout::kVersion2);
-  CHECK(cgroup_layout(first + other + second) == CgroupLayout::kHybrid);
-}
-
 TEST_CASE("a kernel's version is read from its release, and anything else is version zero") {
   CHECK(parse_kernel_version("6.1.0-18-amd64") == KernelVersion{.major = 6, .minor = 1});
   CHECK(parse_kernel_version("5.15") == KernelVersion{.major = 5, .minor = 15});
