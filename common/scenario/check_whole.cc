@@ -17,6 +17,11 @@ void check_counts(const Scenario& scenario, Problems& problems) {
                                std::to_string(kMaxUavs));
   }
   const std::uint32_t nodes = scenario.node_count();
+  if (uavs <= kMaxUavs && nodes > kMaxNodes) {
+    problems.add("/fleet",
+                 "has " + std::to_string(uavs) + " UAVs, which are " + std::to_string(nodes) +
+                     " nodes with the ground station; allowed: 1 ... " + std::to_string(kMaxNodes));
+  }
   const std::uint32_t hosts = scenario.network.subnet.host_count();
   if (nodes > hosts) {
     problems.add("/network/subnet", "\"" + subnet_text(scenario.network.subnet) + "\" has " +

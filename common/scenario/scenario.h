@@ -25,6 +25,8 @@ using Duration = SimClock::duration;
 
 /// UAVs that one scenario may have.
 inline constexpr std::uint32_t kMaxUavs = 1000;
+/// The same with its ground station.
+inline constexpr std::uint32_t kMaxNodes = 1000;
 
 struct FriisPropagation {};
 

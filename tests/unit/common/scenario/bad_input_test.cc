@@ -78,6 +78,7 @@ const std::vector<BadInput> kTable{
     {R"({"fleet": [{"count": 0}]})", "/fleet/0/count", "0 is out of range or not whole; allowed: a whole number 1 ... 1000", true},
     {R"({"fleet": [{"count": 5000}]})", "/fleet/0/count", "5000 is out of range or not whole; allowed: a whole number 1 ... 1000", true},
     {R"({"fleet": [{"name": "a", "count": 600}, {"name": "b", "count": 600, "start": {"layout": "grid", "centre": ["1 km", "0 m", "0 m"]}}]})", "/fleet", "has 1200 UAVs; allowed: 1 ... 1000", false},
+    {R"({"network": {"subnet": "10.42.0.0/16"}, "fleet": [{"count": 1000, "start": {"layout": "grid"}}]})", "/fleet", "has 1000 UAVs, which are 1001 nodes with the ground station; allowed: 1 ... 1000", false},
     {R"({"fleet": [{"name": "UAV 1"}]})", "/fleet/0/name", "\"UAV 1\" is not a group's name", true},
     {R"({"fleet": [{"name": "gcs"}]})", "/fleet/0/name", "\"gcs\" is the ground station", false},
     {R"({"fleet": [{"name": "uav"}, {"name": "uav", "start": {"layout": "grid", "centre": ["9 m", "0 m", "0 m"]}}]})", "/fleet/1/name", "\"uav\" is the name of a group before", false},
