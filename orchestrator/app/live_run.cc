@@ -188,11 +188,10 @@ void LiveRun::build_nodes() {
     spdlog::warn("send stamps are not available ({}): frames enter the air when they are read",
                  send_stamps_text_);
   }
-  std::vector<node::HostEntry> hosts;
   fleet_ = std::make_unique<node::Fleet>(
       networks_of(plan_), node::FleetOptions{.init_path = settings_.programs / "cuscus-init",
                                              .static_neighbours = plan_.static_neighbours,
-                                             .extra_hosts = std::move(hosts),
+                                             .hosts = !plan_.hosts.empty(),
                                              .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
                                              .on_step = [this](std::string_view) {
                                                serve();

@@ -12,8 +12,8 @@ namespace cuscus::node {
 namespace {
 
 /// The table of names in a memory file, which every init reads.
-posix::UniqueFd write_hosts(std::span<const NodeNetwork> networks, const FleetOptions& options) {
-  std::vector<HostEntry> entries = options.extra_hosts;
+posix::UniqueFd write_hosts(std::span<const NodeNetwork> networks) {
+  std::vector<HostEntry> entries;
   for (const NodeNetwork& network : networks) {
     entries.push_back({.name = network.name, .address = network.address.address});
   }
@@ -65,7 +65,7 @@ Fleet::Fleet(std::span<const NodeNetwork> networks, const FleetOptions& options)
 }
 
 void Fleet::start_inits(std::span<const NodeNetwork> networks, const FleetOptions& options) {
-  const auto hosts = write_hosts(networks, options);
+  const auto hosts = options.hosts ? write_hosts(networks) : posix::UniqueFd{};
   const InitProgram program{
       .path = options.init_path, .hosts_fd = hosts.get(), .output_fd = options.output_fd};
   nodes_.reserve(networks.size());

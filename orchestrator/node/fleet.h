@@ -22,8 +22,8 @@ struct FleetOptions {
   /// Every node knows every other's Ethernet address from the start, so that no ARP occupies the
   /// air.
   bool static_neighbours{true};
-  /// More names in every node's /etc/hosts; the nodes' own are there anyway.
-  std::vector<HostEntry> extra_hosts{};
+  /// Every node's /etc/hosts has all nodes' names; off: it is the host's.
+  bool hosts{true};
   const netlink::SendStampRing* send_stamps{};    ///< Null: no stamps. Outlives the building.
   std::chrono::milliseconds ready_limit{10'000};  ///< For each node's init.
   /// Told after each step what has been done; may throw to end the building there.

@@ -9,6 +9,8 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "common/posix/check.h"
@@ -111,6 +113,16 @@ TEST_CASE("a node has its own /run, /dev/shm and names, and cannot write to /sys
                                              "touch /sys/x 2>/dev/null || echo read-only"});
 
   CHECK(run.output == "/dev/shm:\n\n/run:\nhosts\n10.0.0.1\tuav0\nread-only\n");
+}
+
+TEST_CASE("a fleet without names leaves every node the host's") {
+  CUSCUS_ROOT_ONLY();
+  Fleet fleet{test::test_fleet(1, Attachment::kDirect), {.hosts = false}};
+
+  const auto run = run_in(fleet.nodes()[0], {"cat", "/etc/hosts"});
+
+  std::ifstream file{"/etc/hosts"};
+  CHECK(run.output == std::string{std::istreambuf_iterator<char>{file}, {}});
 }
 
 TEST_CASE("ends of programs are reported with exit code or signal") {
