@@ -1,7 +1,9 @@
 #include <fmt/core.h>
-#include <sys/file.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -9,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "common/posix/check.h"
 #include "common/posix/child_process.h"
 #include "orchestrator/app/commands.h"
 #include "orchestrator/app/exit_code.h"
@@ -95,7 +98,9 @@ int stop_command(const std::string& run_id) {
   if (!is_alive(run.run_id)) {
     throw UsageError{"run " + run.run_id + " has just ended"};
   }
-  ::kill(run.pid, SIGINT);
+  if (::syscall(SYS_pidfd_send_signal, process.get(), SIGINT, nullptr, 0) != 0 && errno != ESRCH) {
+    posix::throw_errno("signal the run");
+  }
   const auto deadline = std::chrono::steady_clock::now() + kStopLimit;
   while (is_alive(run.run_id)) {
     if (std::chrono::steady_clock::now() >= deadline) {
