@@ -188,15 +188,17 @@ void LiveRun::build_nodes() {
     spdlog::warn("send stamps are not available ({}): frames enter the air when they are read",
                  send_stamps_text_);
   }
+  const auto look = [this] {
+    serve();
+    check_trouble();
+  };
   fleet_ = std::make_unique<node::Fleet>(
       networks_of(plan_), node::FleetOptions{.init_path = settings_.programs / "cuscus-init",
                                              .static_neighbours = plan_.static_neighbours,
                                              .hosts = !plan_.hosts.empty(),
                                              .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
-                                             .on_step = [this](std::string_view) {
-                                               serve();
-                                               check_trouble();
-                                             }});
+                                             .on_step = [look](std::string_view) { look(); },
+                                             .on_wait = look});
   if (on_nodes_built_) {
     on_nodes_built_();
   }

@@ -41,6 +41,20 @@ void tell(const FleetOptions& options, std::string_view step) {
   }
 }
 
+void await_ready(Node& node, const FleetOptions& options) {
+  constexpr std::chrono::milliseconds kLook{100};
+  const auto deadline = std::chrono::steady_clock::now() + options.ready_limit;
+  while (!node.await_ready(kLook)) {
+    if (options.on_wait) {
+      options.on_wait();
+    }
+    if (std::chrono::steady_clock::now() >= deadline) {
+      throw std::runtime_error{node.network().name + ": its init was not ready in " +
+                               std::to_string(options.ready_limit.count()) + " ms"};
+    }
+  }
+}
+
 }  // namespace
 
 Fleet::Fleet(std::span<const NodeNetwork> networks, const FleetOptions& options)
@@ -57,7 +71,7 @@ Fleet::Fleet(std::span<const NodeNetwork> networks, const FleetOptions& options)
       options.static_neighbours ? neighbours_of(networks) : std::vector<netlink::Neighbour>{};
   auto fabric_routes = netlink::RouteSocket::in(fabric_.network_namespace());
   for (Node& node : nodes_) {
-    node.await_ready(options.ready_limit);
+    await_ready(node, options);
     node.build_links(fabric_, fabric_routes,
                      {.neighbours = neighbours, .send_stamps = options.send_stamps});
     tell(options, node.network().name + " links");

@@ -28,6 +28,8 @@ struct FleetOptions {
   std::chrono::milliseconds ready_limit{10'000};  ///< For each node's init.
   /// Told after each step what has been done; may throw to end the building there.
   std::function<void(std::string_view step)> on_step{};
+  /// Called every now and then while an init is waited for; may throw likewise.
+  std::function<void()> on_wait{};
 };
 
 /// The fabric and all nodes of a run. Takes it all down when it goes: inits first, all at once.

@@ -68,11 +68,11 @@ class Node {
   /// Starts the node's init. It is not ready yet.
   [[nodiscard]] static Node start(NodeNetwork network, const InitProgram& program);
 
-  /// Waits until the init has prepared its namespaces.
-  /// @throws std::runtime_error naming the node, with the init's reason, or after `limit`.
-  void await_ready(std::chrono::milliseconds limit);
+  /// Waits until the init has prepared its namespaces, but not longer than `limit`; whether it has.
+  /// @throws std::runtime_error naming the node, with the init's reason.
+  [[nodiscard]] bool await_ready(std::chrono::milliseconds limit);
 
-  /// Builds wlan0 and what connects it. Once, after await_ready(). `fabric_routes` is of `fabric`.
+  /// Builds wlan0 and what connects it. Once, when await_ready(). `fabric_routes` is of `fabric`.
   void build_links(const Fabric& fabric, netlink::RouteSocket& fabric_routes,
                    const Surroundings& surroundings);
 

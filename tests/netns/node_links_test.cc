@@ -6,7 +6,9 @@
 
 #include <array>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 #include "common/posix/check.h"
@@ -201,6 +203,22 @@ TEST_CASE("a fleet that cannot be built says why") {
   SECTION("an init that is not there") {
     CHECK_THROWS_WITH((Fleet{networks, {.init_path = "/no/such/init"}}),
                       "execute '/no/such/init': No such file or directory");
+  }
+  SECTION("an init that never answers, of which the owner tires") {
+    networks[0].name = "1000000";  // sleeps as many seconds
+    const FleetOptions options{
+        .init_path = "/bin/sleep",
+        .ready_limit = std::chrono::hours{1},
+        .on_wait = [] { throw std::runtime_error{"enough"}; },
+    };
+    CHECK_THROWS_WITH((Fleet{{networks.data(), 1}, options}), "enough");
+  }
+  SECTION("an init that is not ready in time") {
+    networks[0].name = "1000000";
+    const FleetOptions options{.init_path = "/bin/sleep",
+                               .ready_limit = std::chrono::milliseconds{1}};
+    CHECK_THROWS_WITH((Fleet{{networks.data(), 1}, options}),
+                      "1000000: its init was not ready in 1 ms");
   }
   SECTION("a node too many") {
     networks[1].index = 1000;
