@@ -16,7 +16,7 @@ from cuscus_run import (BIN, Run, cuscus, descendants, links, mounts, network_na
                         pause)
 
 CLONE_NEWNS = 0x00020000
-MS_REC, MS_PRIVATE = 0x4000, 0x40000
+MS_REC, MS_PRIVATE, MS_SHARED = 0x4000, 0x40000, 0x100000
 REGISTRY = pathlib.Path("/run/cuscus")
 
 
@@ -31,6 +31,8 @@ def private_registry():
     REGISTRY.mkdir(mode=0o755, exist_ok=True)
     check(libc.unshare(CLONE_NEWNS), "unshare")
     check(libc.mount(b"none", b"/", None, MS_REC | MS_PRIVATE, None), "make mounts private")
+    # Shared again among ourselves, as systemd has it: a node's mounts would show here if they could.
+    check(libc.mount(b"none", b"/", None, MS_REC | MS_SHARED, None), "make mounts shared")
     check(libc.mount(b"tmpfs", bytes(REGISTRY), b"tmpfs", 0, b"mode=0755"), "mount tmpfs")
 
 

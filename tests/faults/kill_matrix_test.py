@@ -39,7 +39,9 @@ class KillMatrix(unittest.TestCase):
             traces = Traces()
             # An init has a command to be told the end, beside the agent.
             group = {"command": ["sleep", "1000"]} if victim == "init" else {}
-            with Run(small_fleet(**group), "--no-page") as run:
+            # The strike must come before the end; only without an agent a run flies to its end.
+            duration = "1 s" if victim == "agent" and phase != "tear-down" else "5 s"
+            with Run(small_fleet(duration, **group), "--no-page") as run:
                 killed = self.strike(run, traces, victim, phase, dice, attempt)
                 struck = time.monotonic()
                 code = run.wait(15)
