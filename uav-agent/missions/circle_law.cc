@@ -20,7 +20,8 @@ NeighbourAngles neighbour_angles(const NeighbourTable& table, SimTime now,
     }
     const Eigen::Vector3d offset_m = heard->p_WB_m - circle.p_WC_centre_m;
     const double radial_m = std::abs(offset_m.head<2>().norm() - circle.radius_m);
-    if (radial_m > circle.ring_tolerance_m || std::abs(offset_m.z()) > circle.ring_tolerance_m) {
+    if (radial_m > circle.ring_tolerance_m ||
+        std::abs(offset_m.z()) > circle.altitude_tolerance_m()) {
       return std::nullopt;
     }
     const double age_s = circle.extrapolate ? to_seconds(now - heard->time) : 0.0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -17,8 +18,8 @@ struct CircleParameters {
   double acceleration_mps2 = 1.0;  ///< From rest to the speed of the law, on entering the circle.
   double entry_speed_mps = 3.0;    ///< On the straight way from take-off to the circle.
   double entry_acceleration_mps2 = 1.0;
-  /// A neighbour this far from the circle, in radius or altitude, does not fly the formation (on
-  /// the ground, on its way, in failsafe) and is not kept distance to.
+  /// A neighbour this far from the circle in radius, or altitude_tolerance_m() in altitude, does
+  /// not fly the formation (on the ground, on its way, in failsafe) and is not kept distance to.
   double ring_tolerance_m = 5.0;
   /// Turn a neighbour's last position on at nominal angular speed for its age. Off: the paper's
   /// agents use positions as last heard, which is what makes the beacon period matter.
@@ -26,6 +27,11 @@ struct CircleParameters {
 
   /// speed / radius, counter-clockwise seen from above [rad/s].
   [[nodiscard]] double nominal_radps() const { return speed_mps / radius_m; }
+
+  /// Half the altitude for low circles, so that what lies on the ground is outside of it.
+  [[nodiscard]] double altitude_tolerance_m() const {
+    return std::min(ring_tolerance_m, 0.5 * p_WC_centre_m.z());
+  }
 };
 
 /// Angle of a position about the circle's centre, from east, counter-clockwise [rad].

@@ -132,6 +132,34 @@ TEST_CASE("fleets of 1, 1.5 and 2 kg fly the circle, also when the control laws 
   check_formation(flown(settings));
 }
 
+TEST_CASE("a wreck on the ground does not hold up a fleet that flies low") {
+  CircleFleet::Settings settings = with_beacons(50);
+  settings.fleet_size = 4;
+  settings.circle.p_WC_centre_m.z() = 3.0;
+  const bool crashed = GENERATE(true, false);
+  if (crashed) {
+    settings.beacon_period.reset();  // seen lying by motion capture
+  }
+  CircleFleet fleet{settings};
+  fleet.fly_until(30.0);
+  REQUIRE(fleet.all_circling());
+
+  if (crashed) {
+    fleet.rig().silence_imu(2, true);
+  } else {
+    fleet.rig().pilot(2).land();  // and beacons from the ground
+  }
+  fleet.fly_until(60.0);
+
+  REQUIRE(fleet.rig().on_ground(2));
+  // Its follower and its predecessor see a neighbour each, and none that stands: they keep the
+  // speed of the circle. Held up, the follower would stop before the wreck.
+  for (const std::size_t neighbour : {1U, 3U}) {
+    CHECK(fleet.rig().truth(neighbour).v_WB_W_mps.norm() ==
+          Approx(settings.circle.speed_mps).epsilon(0.05));
+  }
+}
+
 TEST_CASE("fleets of all sizes fly the circle") {
   CircleFleet::Settings settings = with_beacons(50);
   settings.fleet_size = GENERATE(1U, 2U, 3U);

@@ -9,8 +9,11 @@
 namespace cuscus::missions {
 namespace {
 
-const CircleParameters kCircle{
-    .radius_m = 20.0, .speed_mps = 2.5, .spacing_gain_ps = 0.5, .speed_limit_ratio = 2.0};
+const CircleParameters kCircle{.p_WC_centre_m = {0.0, 0.0, 10.0},
+                               .radius_m = 20.0,
+                               .speed_mps = 2.5,
+                               .spacing_gain_ps = 0.5,
+                               .speed_limit_ratio = 2.0};
 
 /// Points that move at the speed of the law, each knowing its neighbours at once.
 class Ring {
@@ -160,7 +163,7 @@ TEST_CASE("equally old positions slow the ring down and leave it even") {
 
 class TableFixture {
  protected:
-  void hear(std::uint32_t slot, double angle_rad, double radius_m = 20.0, double z_m = 0.0) {
+  void hear(std::uint32_t slot, double angle_rad, double radius_m = 20.0, double z_m = 10.0) {
     REQUIRE(table_.accept(
                 {.slot = slot,
                  .sequence = 1,
@@ -186,13 +189,25 @@ TEST_CASE_METHOD(TableFixture,
 }
 
 TEST_CASE_METHOD(TableFixture, "a neighbour that is not on the circle is not kept distance to") {
-  hear(9, -0.6, 20.0, -10.0);
+  hear(9, -0.6, 20.0, 0.0);
   hear(1, 0.7, 5.0);
 
   const auto angles = neighbour_angles(table_, now_, kCircle);
 
   CHECK_FALSE(angles.previous_rad);
   CHECK_FALSE(angles.next_rad);
+}
+
+TEST_CASE_METHOD(TableFixture, "what lies on the ground is not on a low circle either") {
+  CircleParameters low = kCircle;
+  low.p_WC_centre_m.z() = GENERATE(0.5, 2.0, 5.0);
+  hear(9, -0.6, 20.0, 0.05);
+  hear(1, 0.7, 20.0, 0.9 * low.p_WC_centre_m.z());
+
+  const auto angles = neighbour_angles(table_, now_, low);
+
+  CHECK_FALSE(angles.previous_rad);
+  CHECK(angles.next_rad);
 }
 
 TEST_CASE_METHOD(TableFixture,
