@@ -15,6 +15,7 @@ void require(bool holds, const std::string& what) {
 
 bool positive(double x) { return std::isfinite(x) && x > 0.0; }
 
+/// For parameters that are never 0.
 void take_if_given(double given, double& value) {
   if (given != 0.0) {
     require(positive(given), "a multirotor parameter is not a positive number");
@@ -64,7 +65,11 @@ flight::Airframe airframe(const proto::AgentConfiguration& configuration) {
   take_if_given(given.arm_m(), airframe.arm_m);
   take_if_given(given.thrust_factor(), airframe.thrust_factor);
   take_if_given(given.torque_factor(), airframe.torque_factor);
-  take_if_given(given.drag_lateral(), airframe.drag_lateral);
+  if (configuration.has_multirotor()) {
+    require(std::isfinite(given.drag_lateral()) && given.drag_lateral() >= 0.0,
+            "multirotor.drag_lateral is negative");
+    airframe.drag_lateral = given.drag_lateral();
+  }
   take_if_given(given.inertia_roll_kgm2(), airframe.inertia_roll_kgm2);
   take_if_given(given.inertia_pitch_kgm2(), airframe.inertia_pitch_kgm2);
   take_if_given(given.inertia_yaw_kgm2(), airframe.inertia_yaw_kgm2);

@@ -162,6 +162,7 @@ TEST_CASE("a configuration that cannot be flown is refused before anything is op
       [](auto& c) { c.set_beacon_address("not an address"); },
       [](auto& c) { c.set_telemetry_address("10.0.0.1"); },
       [](auto& c) { c.mutable_multirotor()->set_mass_kg(-1.0); },
+      [](auto& c) { c.mutable_multirotor()->set_drag_lateral(-0.1); },
       [](auto& c) {
         c.set_neighbours(proto::AgentConfiguration::NEIGHBOURS_MOTION_CAPTURE);
         c.clear_slot_nodes();
@@ -186,6 +187,15 @@ TEST_CASE("nominal parameters come from the configuration, and from FL-AIR where
   CHECK(result.gravity_mps2 == 9.7);
   CHECK(result.arm_m == 0.2);
   CHECK(result.motor_speed_per_command == 86.0);
+}
+
+TEST_CASE("a lateral drag of 0 is a drag, not a parameter that was left out") {
+  auto given = configuration();
+  CHECK(airframe(given).drag_lateral == 0.4);
+
+  given.mutable_multirotor()->set_drag_lateral(0.0);
+
+  CHECK(airframe(given).drag_lateral == 0.0);
 }
 
 }  // namespace
