@@ -4,9 +4,16 @@
 
 #include "common/scenario/placeholders.h"
 #include "common/scenario/section_readers.h"
+#include "common/units/autopilot_limits.h"
 
 namespace cuscus::scenario {
 namespace {
+
+std::string text_of(Duration time) {
+  return format_quantity(static_cast<double>(time.count()), kTime);
+}
+
+std::string quoted(Duration time) { return '"' + text_of(time) + '"'; }
 
 std::string group_path(std::size_t group) { return "/fleet/" + std::to_string(group); }
 
@@ -69,6 +76,63 @@ void check_lift(const Scenario& scenario, Problems& problems) {
                    "\"" + format_quantity(x4->mass_kg, kMass) +
                        "\" is more than an x4 lifts; allowed: less than " +
                        format_quantity(std::floor(most_mass_kg * 1000.0) / 1000.0, kMass));
+    }
+  }
+}
+
+/// What our autopilot needs: newer commands than the motors wait for, and sensors that it hears.
+void check_control(const Scenario& scenario, Problems& problems) {
+  bool piloted = false;
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    const Group& group = scenario.fleet[i];
+    const auto* x4 = std::get_if<X4Vehicle>(&group.vehicle);
+    if (x4 == nullptr || !group.autopilot) {
+      continue;
+    }
+    piloted = true;
+    if (group.control_period >= x4->motor_timeout) {
+      problems.add(group_path(i) + "/control_period",
+                   quoted(group.control_period) + " lets the motors stop between two commands; " +
+                       "allowed: less than motor_timeout, here " + text_of(x4->motor_timeout));
+    }
+  }
+  const auto check_rate = [&](const std::string& path, Duration period, Duration timeout) {
+    if (piloted && period >= timeout) {
+      problems.add(path, "has a period of " + text_of(period) +
+                             ", and the autopilot takes the sensor for lost after " +
+                             text_of(timeout) + "; allowed: more than " +
+                             format_quantity(1.0 / to_seconds(timeout), kFrequency));
+    }
+  };
+  check_rate("/world/imu/rate", scenario.world.imu_period, kImuTimeout);
+  check_rate("/world/motion_capture/rate", scenario.world.motion_capture_period,
+             kMotionCaptureTimeout);
+}
+
+/// Speed at which turning and drag together take all the tilt that the autopilot gives: at speed v
+/// on radius R with drag k of mass m it needs the acceleration sqrt((v^2 / R)^2 + (k v / m)^2).
+double fastest_mps(const CircleMission& circle, const X4Vehicle& x4, double gravity_mps2) {
+  const double limit_mps2 = gravity_mps2 * std::tan(kTiltReferenceLimit_rad);
+  const double drag_ps = x4.drag_lateral_Nspm / x4.mass_kg;
+  const double turn_mps2 = 2.0 * limit_mps2 / circle.radius_m;
+  const double drag2_ps2 = drag_ps * drag_ps;
+  return limit_mps2 * std::sqrt(2.0 / (drag2_ps2 + std::hypot(drag2_ps2, turn_mps2)));
+}
+
+void check_speed(const Scenario& scenario, Problems& problems) {
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    const Group& group = scenario.fleet[i];
+    const auto* x4 = std::get_if<X4Vehicle>(&group.vehicle);
+    if (x4 == nullptr || !group.mission) {
+      continue;
+    }
+    const double most_mps = fastest_mps(*group.mission, *x4, scenario.world.gravity_mps2);
+    if (group.mission->speed_mps > most_mps) {
+      problems.add(group_path(i) + "/mission/speed",
+                   '"' + format_quantity(group.mission->speed_mps, kSpeed) +
+                       "\" takes more than the 15 deg of tilt that the autopilot gives, on this " +
+                       "radius and with this drag; allowed: up to " +
+                       format_quantity(std::floor(most_mps * 100.0) / 100.0, kSpeed));
     }
   }
 }
@@ -149,6 +213,8 @@ void check_whole(const Scenario& scenario, Problems& problems) {
   check_names(scenario, problems);
   check_ports(scenario, problems);
   check_lift(scenario, problems);
+  check_control(scenario, problems);
+  check_speed(scenario, problems);
   check_positions(scenario, problems);
   check_placeholders(scenario, problems);
 }

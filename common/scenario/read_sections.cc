@@ -56,7 +56,7 @@ void read_motion_capture(const json* value, const std::string& path, World& worl
   world.motion_capture_period =
       reader.period_of_rate("rate", world.motion_capture_period, "1 Hz", "1 kHz");
   world.motion_capture_noise_m =
-      reader.quantity("position_noise", world.motion_capture_noise_m, {kLength, "0 m", "100 m"});
+      reader.quantity("position_noise", world.motion_capture_noise_m, {kLength, "0 m", "1 m"});
   world.motion_capture_noise_rad = reader.quantity("attitude_noise", world.motion_capture_noise_rad,
                                                    {kAngle, "0 deg", "90 deg"});
   reader.finish();

@@ -193,6 +193,7 @@ class Planner {
       agent.add_slot_nodes(first_node + slot);
     }
     agent.set_gravity_mps2(scenario_.world.gravity_mps2);
+    agent.set_motion_capture_noise_m(scenario_.world.motion_capture_noise_m);
     agent.set_realtime_priority(priority(scenario_, kAgentPriority));
     return agent;
   }

@@ -61,7 +61,10 @@ FlightRig::FlightRig(const Settings& settings) {
                                                  .attitude_rad = settings.attitude_noise_rad}}});
     flight::Airframe airframe;
     airframe.mass_kg = settings.nominal_mass_kg.value_or(settings.masses_kg[i]);
-    pilots_.emplace_back(airframe);
+    flight::AutopilotParameters autopilot;
+    autopilot.estimator.position_noise_m =
+        std::max(autopilot.estimator.position_noise_m, settings.position_noise_m);
+    pilots_.emplace_back(airframe, autopilot);
   }
 }
 

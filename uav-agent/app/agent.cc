@@ -20,12 +20,6 @@ const proto::AgentConfiguration& checked(const proto::AgentConfiguration& config
   return configuration;
 }
 
-flight::AutopilotParameters autopilot_parameters(const proto::AgentConfiguration& configuration) {
-  flight::AutopilotParameters parameters;
-  parameters.estimator.gravity_mps2 = airframe(configuration).gravity_mps2;
-  return parameters;
-}
-
 }  // namespace
 
 Agent::Agent(const proto::AgentConfiguration& configuration, sdk::Vehicle& vehicle)

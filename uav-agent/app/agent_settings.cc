@@ -1,5 +1,6 @@
 #include "uav-agent/app/agent_settings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -43,6 +44,9 @@ void check(const proto::AgentConfiguration& configuration) {
     check(configuration.circle());
   }
   require(configuration.neighbour_timeout_ns() > 0, "neighbour_timeout_ns is not positive");
+  require(std::isfinite(configuration.motion_capture_noise_m()) &&
+              configuration.motion_capture_noise_m() >= 0.0,
+          "motion_capture_noise_m is negative");
   require(configuration.beacon_port() <= 65535, "beacon_port is no port");
   require(configuration.telemetry_port() <= 65535, "telemetry_port is no port");
   require(configuration.telemetry_address().empty() || configuration.telemetry_period_ns() > 0,
@@ -76,6 +80,15 @@ flight::Airframe airframe(const proto::AgentConfiguration& configuration) {
   take_if_given(given.motor_speed_per_command(), airframe.motor_speed_per_command);
   take_if_given(configuration.gravity_mps2(), airframe.gravity_mps2);
   return airframe;
+}
+
+flight::AutopilotParameters autopilot_parameters(const proto::AgentConfiguration& configuration) {
+  flight::AutopilotParameters parameters;
+  parameters.estimator.gravity_mps2 = airframe(configuration).gravity_mps2;
+  // Not below what readings of a moving vehicle are off by because they come late.
+  parameters.estimator.position_noise_m =
+      std::max(parameters.estimator.position_noise_m, configuration.motion_capture_noise_m());
+  return parameters;
 }
 
 missions::CircleParameters circle(const proto::AgentConfiguration& configuration) {

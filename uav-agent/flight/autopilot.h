@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "common/units/autopilot_limits.h"
 #include "common/units/sim_time.h"
 #include "uav-agent/flight/airframe.h"
 #include "uav-agent/flight/cascade.h"
@@ -33,8 +34,8 @@ enum class FailsafeReason : std::uint8_t {
 struct AutopilotParameters {
   EstimatorParameters estimator;
   CascadeGains gains;
-  SimClock::duration motion_capture_timeout = std::chrono::milliseconds{200};
-  SimClock::duration imu_timeout = std::chrono::milliseconds{100};
+  SimClock::duration motion_capture_timeout = kMotionCaptureTimeout;
+  SimClock::duration imu_timeout = kImuTimeout;
   double tilt_limit_rad = 1.05;          ///< 60 degrees.
   double climb_speed_mps = 2.0;          ///< FL-AIR: 0.5.
   double climb_acceleration_mps2 = 1.0;  ///< FL-AIR: 0.2.

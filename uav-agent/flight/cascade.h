@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <numbers>
 
+#include "common/units/autopilot_limits.h"
 #include "uav-agent/flight/airframe.h"
 #include "uav-agent/flight/estimator.h"
 #include "uav-agent/flight/mixer.h"
@@ -34,9 +35,9 @@ struct CascadeGains {
   // FL-AIR: kp 0.2 rad/m, kd 0.2 rad/(m/s), ki 0, applied to the small-angle tilt a/g.
   double horizontal_kp_radpm = 0.2;
   double horizontal_kd_rads_pm = 0.2;
-  double tilt_limit_rad = 15.0 * std::numbers::pi / 180.0;
+  double tilt_limit_rad = kTiltReferenceLimit_rad;
   PidGains vertical{.kp = 9.0, .ki = 0.6, .kd = 6.0, .integral_limit = 8.0, .output_limit = 12.0};
-  NestedSatGains tilt{.reference_limit_rad = 15.0 * std::numbers::pi / 180.0,
+  NestedSatGains tilt{.reference_limit_rad = kTiltReferenceLimit_rad,
                       .kp_ps = 6.0,
                       .rate_limit_radps = 100.0 * std::numbers::pi / 180.0,
                       .kd_ps = 30.0,

@@ -71,6 +71,9 @@ const std::vector<BadInput> kTable{
     {R"({"network": {"mtu": 9000}})", "/network/mtu", "9000 is out of range or not whole; allowed: a whole number 576 ... 1500", true},
     {R"({"network": {"mtu": 1000, "ipv6": true}})", "/network/mtu", "allowed: a whole number 1280 ... 1500", false},
     {R"({"world": {"imu": {"rate": "300 Hz"}}})", "/world/imu/rate", "allowed: a whole number of world steps of 1 ms", false},
+    {R"({"world": {"imu": {"rate": "10 Hz"}}})", "/world/imu/rate", "takes the sensor for lost after 100 ms; allowed: more than 10 Hz", false},
+    {R"({"world": {"motion_capture": {"rate": "5 Hz"}}})", "/world/motion_capture/rate", "has a period of 200 ms, and the autopilot takes the sensor for lost after 200 ms; allowed: more than 5 Hz", false},
+    {R"({"world": {"motion_capture": {"position_noise": "2 m"}}})", "/world/motion_capture/position_noise", "allowed: 0 m ... 1 m", false},
     {R"({"world": {"step": "1 s"}})", "/world/step", "allowed: 100 us ... 10 ms", false},
     {R"({"fleet": null})", "/fleet", "is missing; allowed: an array of 1 ... 100 groups", true},
     {R"({"fleet": []})", "/fleet", "has 0 elements; allowed: an array of 1 ... 100 groups", true},
@@ -97,6 +100,10 @@ const std::vector<BadInput> kTable{
     {R"({"fleet": [{"mission": "circle"}]})", "/fleet/0/mission", "allowed: none, or an object with a type", true},
     {R"({"fleet": [{"mission": {"radius": "20 m"}}]})", "/fleet/0/mission/type", "is missing; allowed: circle", true},
     {R"({"fleet": [{"mission": {"type": "circle", "speed": "300 m/s"}}]})", "/fleet/0/mission/speed", "allowed: 0 m/s ... 30 m/s", false},
+    {R"({"fleet": [{"mission": {"type": "circle", "radius": "20 m", "speed": "6 m/s"}}]})", "/fleet/0/mission/speed", "\"6 m/s\" takes more than the 15 deg of tilt that the autopilot gives, on this radius and with this drag; allowed: up to 5.9 m/s", false},
+    {R"({"fleet": [{"vehicle": {"model": "x4", "drag": {"lateral": "0 N s/m"}}, "mission": {"type": "circle", "radius": "50 cm"}}]})", "/fleet/0/mission/speed", "allowed: up to 1.14 m/s", false},
+    {R"({"fleet": [{"control_period": "100 ms"}]})", "/fleet/0/control_period", "\"100 ms\" lets the motors stop between two commands; allowed: less than motor_timeout, here 100 ms", false},
+    {R"({"fleet": [{"vehicle": {"model": "x4", "motor_timeout": "2 ms"}}]})", "/fleet/0/control_period", "\"5 ms\" lets the motors stop between two commands; allowed: less than motor_timeout, here 2 ms", false},
     {R"({"fleet": [{"neighbours": {"source": "telepathy"}}]})", "/fleet/0/neighbours/source", "allowed: beacons, motion-capture", true},
     {R"({"fleet": [{"neighbours": {"beacon_period": "2 s", "timeout": "1 s"}}]})", "/fleet/0/neighbours/timeout", "is shorter than beacon_period; allowed: 2 s ... 60 s", false},
     {R"({"fleet": [{"neighbours": {"port": 80}}]})", "/fleet/0/neighbours/port", "allowed: a whole number 1024 ... 65535", true},
@@ -202,6 +209,15 @@ TEST_CASE("The same key in two objects is no repetition") {
   CHECK_NOTHROW(parse_scenario(
       R"({"name": "t", "fleet": [{"name": "a"}, {"name": "b", "start":
           {"layout": "grid", "centre": ["9 m", "0 m", "0 m"]}}]})",
+      kSource, "/"));
+}
+
+TEST_CASE("What only the autopilot needs is not asked of what flies without it") {
+  CHECK_NOTHROW(parse_scenario(
+      R"({"name": "t", "world": {"motion_capture": {"rate": "1 Hz"}}, "fleet": [
+          {"vehicle": {"model": "fixed"}, "control_period": "1 s", "start":
+              {"layout": "grid", "centre": ["0 m", "0 m", "10 m"]}},
+          {"name": "on-ground", "autopilot": false, "control_period": "1 s"}]})",
       kSource, "/"));
 }
 

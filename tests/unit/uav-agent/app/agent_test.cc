@@ -157,6 +157,7 @@ TEST_CASE("a configuration that cannot be flown is refused before anything is op
       [](auto& c) { c.mutable_circle()->set_spacing_gain(-1.0); },
       [](auto& c) { c.mutable_circle()->mutable_p_wc_centre_m()->set_z(0.0); },
       [](auto& c) { c.set_neighbour_timeout_ns(0); },
+      [](auto& c) { c.set_motion_capture_noise_m(-0.1); },
       [](auto& c) { c.set_beacon_port(70'000); },
       [](auto& c) { c.set_beacon_period_ns(0); },
       [](auto& c) { c.set_beacon_address("not an address"); },
@@ -187,6 +188,17 @@ TEST_CASE("nominal parameters come from the configuration, and from FL-AIR where
   CHECK(result.gravity_mps2 == 9.7);
   CHECK(result.arm_m == 0.2);
   CHECK(result.motor_speed_per_command == 86.0);
+}
+
+TEST_CASE("the estimator is told how noisy motion capture is, where that is more than its least") {
+  auto given = configuration();
+  CHECK(autopilot_parameters(given).estimator.position_noise_m == 0.002);
+
+  given.set_motion_capture_noise_m(0.0002);
+  CHECK(autopilot_parameters(given).estimator.position_noise_m == 0.002);
+
+  given.set_motion_capture_noise_m(0.05);
+  CHECK(autopilot_parameters(given).estimator.position_noise_m == 0.05);
 }
 
 TEST_CASE("a lateral drag of 0 is a drag, not a parameter that was left out") {

@@ -216,6 +216,21 @@ TEST_CASE("a vehicle that is upset beyond the limit goes into failsafe") {
   CHECK(pilot.failsafe_reason() == FailsafeReason::kTiltBeyondLimit);
 }
 
+TEST_CASE("a vehicle whose estimator knows of it hovers by the noisiest motion capture there is") {
+  FlightRig rig{{.position_noise_m = 1.0}};  // the most that a scenario may ask for
+  rig.pilot(0).take_off(kAltitude_m);
+  run(rig, 20.0, kHover);
+
+  double worst_m = 0.0;
+  for (int i = 0; i < 40'000; ++i) {
+    rig.step(kHover);
+    worst_m = std::max(worst_m, (rig.truth(0).p_WB_m - hold_at(0.0).p_WB_m).norm());
+  }
+
+  CHECK(rig.pilot(0).state() == FlightState::kFlying);
+  CHECK(worst_m < 1.0);
+}
+
 TEST_CASE("a vehicle too heavy for its motors gives up on the ground") {
   FlightRig rig{{.masses_kg = {4.0}, .nominal_mass_kg = 1.2}};
   rig.pilot(0).take_off(kAltitude_m);
