@@ -11,6 +11,10 @@ constexpr double kPeriodMax_s = 0.1;
 /// How far the altitude reference runs ahead of a vehicle that no longer sinks.
 constexpr double kContactLead_m = 0.3;
 constexpr double kContactSpeed_mps = 0.12;
+/// A height known from the IMU alone that is this far below the ground, or this share of the height
+/// at which failsafe began, means that the vehicle stands on it.
+constexpr double kBlindDepth_m = 1.0;
+constexpr double kBlindDepthShare = 0.1;
 /// Vertical acceleration per velocity error in failsafe [1/s].
 constexpr double kFailsafeGain_ps = 2.0;
 
@@ -113,6 +117,7 @@ void Autopilot::fail(FailsafeReason reason, SimTime now) {
   // The estimate may be what failed: its height is then no bound.
   const double height =
       ready() && std::isfinite(height_m()) ? std::clamp(height_m(), 0.0, 500.0) : 100.0;
+  failsafe_depth_m_ = std::max(kBlindDepth_m, kBlindDepthShare * height);
   failsafe_deadline_ = now + seconds(5.0 + 2.0 * height / parameters_.failsafe_descent_mps);
 }
 
@@ -239,7 +244,10 @@ MotorCommands Autopilot::fall_gently(SimTime now) {
   const bool near_ground = !ready() || height_m() < parameters_.touchdown_height_m;
   const SimClock::duration blind = parameters_.motion_capture_timeout;
   const bool height_known = ready() && now - *estimator_.last_motion_capture() <= blind;
-  if (now >= failsafe_deadline_ || (ready() && in_contact(now, near_ground || !height_known))) {
+  // A touch-down that the IMU missed leaves a sink rate that is not there, and no contact to see.
+  const bool below_ground = ready() && !height_known && height_m() < -failsafe_depth_m_;
+  if (now >= failsafe_deadline_ || below_ground ||
+      (ready() && in_contact(now, near_ground || !height_known))) {
     stop_motors();
   }
   if (!motors_on_ || !ready()) {

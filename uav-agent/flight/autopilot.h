@@ -111,6 +111,7 @@ class Autopilot {
   std::optional<SimTime> last_act_;
   std::optional<SimTime> contact_since_;
   SimTime failsafe_deadline_;
+  double failsafe_depth_m_ = 0.0;  ///< Below the ground, by dead reckoning: it stands there.
 };
 
 }  // namespace cuscus::flight

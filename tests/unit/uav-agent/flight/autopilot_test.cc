@@ -125,6 +125,26 @@ TEST_CASE("200 ms without motion capture bring a vehicle down, level, and stop i
   check_lands_in_failsafe(rig, FailsafeReason::kMotionCaptureLost);
 }
 
+TEST_CASE("without motion capture the motors stop soon after touch-down, not at the deadline") {
+  FlightRig rig{{.seed = GENERATE(1U, 2U, 3U)}};
+  rig.pilot(0).take_off(10.0);
+  const auto hover = [](std::size_t, SimTime) { return hold_at(0.0, 10.0); };
+  run(rig, 15.0, hover);
+  REQUIRE(rig.pilot(0).state() == FlightState::kFlying);
+
+  rig.silence_motion_capture(0, true);
+  for (int i = 0; i < 30'000 && !rig.on_ground(0); ++i) {
+    rig.step(hover);
+  }
+  REQUIRE(rig.on_ground(0));
+  CHECK(rig.pilot(0).motors_on());
+  run(rig, 3.0, hover);
+
+  // 1 m of imagined sinking at 0.8 m/s, and as much again for what dead reckoning is off by; the
+  // deadline is another 12 s away.
+  CHECK_FALSE(rig.pilot(0).motors_on());
+}
+
 TEST_CASE("a shorter loss of motion capture changes nothing") {
   FlightRig rig = hovering();
 
