@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -167,6 +168,23 @@ void check_positions(const Scenario& scenario, Problems& problems) {
   }
 }
 
+/// The autopilot takes where it stands for the ground.
+void check_standing(const Scenario& scenario, Problems& problems) {
+  for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
+    const Group& group = scenario.fleet[i];
+    const auto positions = start_positions(group);
+    const auto above = std::find_if(positions.begin(), positions.end(),
+                                    [](const Position_m& p_m) { return p_m[2] > 0.0; });
+    if (!group.is_fixed() && above != positions.end()) {
+      const auto member = static_cast<std::uint32_t>(above - positions.begin());
+      problems.add(group_path(i) + "/start",
+                   uav_name(group, member) +
+                       " is above the ground, at z = " + format_quantity((*above)[2], kLength) +
+                       ", from where it would fall; allowed: z = 0 m, or the vehicle fixed");
+    }
+  }
+}
+
 /// Fills the placeholders in as the plan will, with addresses that only need to exist.
 void check_placeholders(const Scenario& scenario, Problems& problems) {
   std::set<std::string> names;
@@ -216,6 +234,7 @@ void check_whole(const Scenario& scenario, Problems& problems) {
   check_control(scenario, problems);
   check_speed(scenario, problems);
   check_positions(scenario, problems);
+  check_standing(scenario, problems);
   check_placeholders(scenario, problems);
 }
 

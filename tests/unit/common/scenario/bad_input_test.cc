@@ -94,6 +94,7 @@ const std::vector<BadInput> kTable{
     {R"({"fleet": [{"start": {"layout": "grid", "spacing": "0 m"}}]})", "/fleet/0/start/spacing", "allowed: 10 cm ... 10 km", false},
     {R"({"fleet": [{"start": {"layout": "grid", "centre": ["0 m", "0 m"]}}]})", "/fleet/0/start/centre", "an array of 2; allowed: an array of 3 lengths", true},
     {R"({"fleet": [{"start": {"layout": "grid", "centre": ["0 m", "0 m", "-3 m"]}}]})", "/fleet/0/start", "uav0 is below the ground, at z = -3 m", false},
+    {R"({"fleet": [{"count": 4, "start": {"layout": "grid", "centre": ["0 m", "0 m", "3 m"]}}]})", "/fleet/0/start", "uav0 is above the ground, at z = 3 m, from where it would fall; allowed: z = 0 m", false},
     {R"({"fleet": [{"count": 2, "start": {"layout": "list", "positions": [["0 m", "0 m", "0 m"]]}}]})", "/fleet/0/start/positions", "has 1 elements; allowed: 2 positions", false},
     {R"({"fleet": [{"count": 1, "start": {"layout": "list", "positions": [["0 m", "0 s", "0 m"]]}}]})", "/fleet/0/start/positions/0/1", "\"0 s\" has the unit \"s\"", true},
     {R"({"fleet": [{"count": 2, "start": {"layout": "list", "positions": [["0 m", "0 m", "0 m"], ["0 m", "0 m", "0 m"]]}}]})", "/fleet/0/start", "uav1 is where uav0 is", false},
