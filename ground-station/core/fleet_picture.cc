@@ -55,7 +55,7 @@ bool FleetPicture::receive(std::span<const std::byte> datagram, SimTime now) {
   }
   ++received_;
   Vehicle& vehicle = found->second;
-  if (vehicle.tally.count(sample.sequence) == SequenceTally::Arrival::kNewest) {
+  if (vehicle.tally.count(sample.sequence, sample.at) == SequenceTally::Arrival::kNewest) {
     vehicle.latest = std::move(sample);
   }
   return true;

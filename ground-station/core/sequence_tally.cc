@@ -5,13 +5,16 @@
 
 namespace cuscus::gcs {
 
-SequenceTally::Arrival SequenceTally::count(std::uint32_t sequence) noexcept {
+SequenceTally::Arrival SequenceTally::count(std::uint32_t sequence, SimTime at) noexcept {
   const auto ahead = static_cast<std::int32_t>(sequence - newest_);
-  if (expected_ == 0 || ahead <= -static_cast<std::int32_t>(kWindow)) {
+  const bool anew = ahead <= 0 && (at > newest_at_ || ahead <= -static_cast<std::int32_t>(kWindow));
+  if (expected_ == 0 || anew) {
     restart(sequence);
+    newest_at_ = at;
     return Arrival::kNewest;
   }
   if (ahead > 0) {
+    newest_at_ = at;
     const auto steps = static_cast<std::uint32_t>(ahead);
     window_ = steps >= kWindow ? 0 : window_ << steps;
     window_ |= 1U;

@@ -2,12 +2,15 @@
 
 #include <cstdint>
 
+#include "common/units/sim_time.h"
+
 namespace cuscus::gcs {
 
 /// Which numbers of a sender's sequence have arrived: its loss, told from gaps.
 ///
-/// Numbers may arrive late or twice. One that lies further back than the window means that the
-/// sender began anew, and the tally does too. Numbers wrap at 2^32 (RFC 1982).
+/// Numbers may arrive late or twice. An old one that tells of a later time than the newest, or that
+/// lies further back than the window, means that the sender began anew, and the tally does too.
+/// Numbers wrap at 2^32 (RFC 1982).
 class SequenceTally {
  public:
   enum class Arrival {
@@ -19,7 +22,8 @@ class SequenceTally {
   /// How many of the latest numbers recent_loss_ratio() looks at.
   static constexpr std::uint32_t kWindow = 64;
 
-  Arrival count(std::uint32_t sequence) noexcept;
+  /// Counts a number that arrived with something that was true at `at`.
+  Arrival count(std::uint32_t sequence, SimTime at) noexcept;
 
   [[nodiscard]] std::uint64_t received() const noexcept { return received_; }
   /// Numbers from the first that arrived to the newest, both included.
@@ -33,6 +37,7 @@ class SequenceTally {
   void restart(std::uint32_t sequence) noexcept;
 
   std::uint32_t newest_{0};
+  SimTime newest_at_;
   std::uint64_t window_{0};  // bit i: number newest_ - i has arrived
   std::uint64_t received_{0};
   std::uint64_t expected_{0};

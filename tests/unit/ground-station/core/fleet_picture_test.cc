@@ -68,8 +68,8 @@ TEST_CASE("overtaken telemetry counts as received but does not move a UAV back")
   FleetPicture picture{configuration()};
   tell(picture, 0, 1, 1.0F, at_ms(100));
   tell(picture, 0, 3, 3.0F, at_ms(300));
-  tell(picture, 0, 2, 2.0F, at_ms(301));
-  tell(picture, 0, 3, 99.0F, at_ms(302));  // the same number again
+  tell(picture, 0, 2, 2.0F, at_ms(200));
+  tell(picture, 0, 3, 99.0F, at_ms(300));  // the same number again
 
   const auto snapshot = picture.snapshot({}, at_ms(400), RunState::kRunning);
 
