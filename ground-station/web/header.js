@@ -62,13 +62,18 @@ export function showRun(snapshot) {
   showCards(snapshot);
 }
 
-/** @param state "live", "connecting" or "ended" */
-export function showConnection(state, everLive) {
+/**
+ * @param state "live", "connecting" or "ended"
+ * @param silence_s how long an open connection has said nothing; undefined when it is not open
+ */
+export function showConnection(state, everLive, silence_s) {
   document.body.dataset.connection = state;
   const lost = state === 'connecting' && everLive;
   write('connection', { live: 'live', ended: 'run ended', connecting: lost ? 'reconnecting…' : 'connecting…' }[state]);
   const banner = element('banner');
   banner.hidden = state === 'live' || !everLive;
+  const news = silence_s === undefined ? 'No connection to the ground station.'
+    : `No news from the ground station for ${Math.floor(silence_s)} s.`;
   write('banner', state === 'ended' ? 'The run has ended. This is its last picture.'
-    : 'No connection to the ground station. This is the last picture.');
+    : `${news} This is the last picture.`);
 }

@@ -122,8 +122,8 @@ showColours();
 
 listen(canvas, viewport, requestFrame, (x, y) => select(pick(viewport, placed, x, y)));
 
-function showState(state) {
-  showConnection(model.ended ? 'ended' : state, everLive);
+function showState(state, silence_s) {
+  showConnection(model.ended ? 'ended' : state, everLive, silence_s);
   requestFrame();
 }
 
@@ -134,6 +134,6 @@ connect((snapshot) => {
   showRun(snapshot);
   table.show(snapshot, options.source);
   showState('live');
-}, (state) => {
-  if (state !== 'live') showState(state);
+}, (state, silence_s) => {
+  if (state !== 'live') showState(state, silence_s);
 });

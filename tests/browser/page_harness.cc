@@ -106,6 +106,7 @@ class Child {
   }
 
   ipc::ControlSocket& socket() { return *socket_; }
+  [[nodiscard]] pid_t pid() const { return pid_; }
 
   int wait() {
     int status = 0;
@@ -361,7 +362,8 @@ void run(const Options& options) {
   proto::Envelope start;
   start.mutable_start()->set_start_monotonic_ns(start_ns);
   child->socket().send(start);
-  std::cout << "{\"url\": \"http://127.0.0.1:" << page_port << "\"}" << std::endl;
+  std::cout << "{\"url\": \"http://127.0.0.1:" << page_port << "\", \"gcs_pid\": " << child->pid()
+            << "}" << std::endl;
 
   std::int64_t next_ns = start_ns;
   while (!told_to_stop(next_ns)) {

@@ -90,6 +90,19 @@ async function checkControls(page) {
   await page.locator('#details h2', { hasText: 'uav3' }).waitFor();
 }
 
+/** The ground station stands still with the connection open: the page must not call that live. */
+async function checkSilence(page) {
+  run.pause();
+  try {
+    await page.locator('#banner', { hasText: /No news from the ground station for \d+ s/ }).waitFor();
+    assert.equal((await read(page)).connection, 'connecting');
+  } finally {
+    run.resume();
+  }
+  await page.locator('body[data-connection="live"]').waitFor();
+  await page.locator('#banner').waitFor({ state: 'hidden' });
+}
+
 const run = await startHarness(harness, gcs);
 try {
   for (const colorScheme of ['light', 'dark']) {
@@ -100,6 +113,7 @@ try {
       if (colorScheme === 'light') {
         await checkSnapshot(run.url);
         await checkGuards(run.url);
+        await checkSilence(page);
       } else {
         await checkControls(page);
       }
