@@ -59,9 +59,9 @@ export class FleetTable {
 
   /** Shows `snapshot`; altitude and speed come from `source`. */
   show(snapshot, source) {
-    const numbers = snapshot.nodes.map((node) => node.node).join();
-    if (numbers !== this.numbers) {
-      this.numbers = numbers;
+    const fleet = JSON.stringify(snapshot.nodes.map((node) => [node.node, node.name, node.vehicle]));
+    if (fleet !== this.fleet) {  // another run on the same port, say
+      this.fleet = fleet;
       this.body.replaceChildren();
       const fixedLast = [...snapshot.nodes].sort((a, b) => b.vehicle - a.vehicle);
       this.rows = new Map(fixedLast.map((node) => [node.node, this.#row(node)]));

@@ -103,6 +103,23 @@ async function checkSilence(page) {
   await page.locator('#banner').waitFor({ state: 'hidden' });
 }
 
+/** A table that saw one run shows the names of the next, on the same port and of the same size. */
+async function checkNextRun(page) {
+  const names = await page.evaluate(async () => {
+    const { FleetTable } = await import('/table.js');
+    const snapshot = await (await fetch('/api/snapshot')).json();
+    const table = document.getElementById('fleet').cloneNode(true);
+    const fleet = new FleetTable(table, document.createElement('section'), () => {});
+    const shown = () => [...table.tBodies[0].rows].map((row) => row.cells[0].textContent);
+    fleet.show(snapshot, 'truth');
+    const before = shown();
+    for (const node of snapshot.nodes) node.name = `next-${node.name}`;
+    fleet.show(snapshot, 'truth');
+    return { before, after: shown() };
+  });
+  assert.deepEqual(names.after, names.before.map((name) => `next-${name}`));
+}
+
 const run = await startHarness(harness, gcs);
 try {
   for (const colorScheme of ['light', 'dark']) {
@@ -116,6 +133,7 @@ try {
         await checkSilence(page);
       } else {
         await checkControls(page);
+        await checkNextRun(page);
       }
       await page.screenshot({ path: join(folder, `page-${colorScheme}.png`) });
       assert.deepEqual(complaints, []);
