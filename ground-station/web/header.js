@@ -33,6 +33,9 @@ function showCards(snapshot) {
   write('card-heard', `${heard} / ${vehicles.length}`);
   element('card-heard').dataset.level = heard < vehicles.length ? 'fair' : '';
   write('card-links', number(snapshot.links.length + snapshot.links_left_out));
+  const failed = vehicles.filter((node) => node.telemetry?.state === 'failsafe').length;
+  element('failsafe').hidden = failed === 0;
+  write('card-failsafe', number(failed));
   const { world, radio } = snapshot.run;
   write('card-overruns', number(world?.overruns));
   element('card-overruns').dataset.level = world?.overruns > 0 ? 'fair' : '';

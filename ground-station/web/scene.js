@@ -87,7 +87,22 @@ function drawTrail(context, viewport, item, colour, t) {
   context.globalAlpha = 1;
 }
 
-function drawDrone(context, palette, x, y, yaw, colour, { lost, selected, size }) {
+/** What tells a drone in failsafe without colour: a cross in a ring. */
+function drawCross(context, palette) {
+  const radius = 19;
+  const reach = radius * Math.SQRT1_2;
+  context.strokeStyle = palette.bad;
+  context.lineWidth = 2.5;
+  context.beginPath();
+  context.arc(0, 0, radius, 0, 2 * Math.PI);
+  for (const side of [1, -1]) {
+    context.moveTo(-reach, -side * reach);
+    context.lineTo(reach, side * reach);
+  }
+  context.stroke();
+}
+
+function drawDrone(context, palette, x, y, yaw, colour, { lost, failed, selected, size }) {
   context.save();
   context.translate(x, y);
   context.scale(size, size);
@@ -98,6 +113,7 @@ function drawDrone(context, palette, x, y, yaw, colour, { lost, selected, size }
     context.arc(0, 0, 24, 0, 2 * Math.PI);
     context.stroke();
   }
+  if (failed) drawCross(context, palette);
   context.rotate(-yaw);  // counter-clockwise from east; the canvas's y points down
   context.globalAlpha = lost ? 0.45 : 1;
   context.strokeStyle = colour;
@@ -165,9 +181,11 @@ function drawGhost(context, viewport, palette, item) {
   context.setLineDash([]);
 }
 
+const isFailed = (node) => node.vehicle && node.telemetry?.state === 'failsafe';
+
 /** Whether a label beside (x, y) would cover no other in `taken`, which it then joins. */
-function isFree(taken, x, y, right) {
-  const box = right ? [x + 28, x + 84, y - 14, y + 14] : [x - 84, x - 28, y - 14, y + 14];
+function isFree(taken, x, y, right, below) {
+  const box = right ? [x + 28, x + 84, y - 14, y + below] : [x - 84, x - 28, y - 14, y + below];
   const free = taken.every(([x0, x1, y0, y1]) => box[1] < x0 || box[0] > x1 || box[3] < y0 || box[2] > y1);
   if (free) taken.push(box);
   return free;
@@ -194,6 +212,7 @@ function drawLabel(context, palette, x, y, middle, item) {
   }
   write(item.node.name, -7, `600 12px ${palette.font}`, palette.text);
   write(`${number(item.pose.p[2], 1)} m`, 7, `11.5px ${palette.font}`, palette.muted);
+  if (isFailed(item.node)) write('failsafe', 21, `600 11.5px ${palette.font}`, palette.bad);
 }
 
 /**
@@ -227,17 +246,18 @@ export function drawScene(context, viewport, palette, { placed, links, circle, t
     const [x, y] = viewport.toScreen(item.pose.p);
     if (item.node.vehicle) {
       drawDrone(context, palette, x, y, item.pose.yaw, colourOf(item),
-        { lost: item.lost, selected: item.node.node === selected, size });
+        { lost: item.lost, failed: isFailed(item.node), selected: item.node.node === selected, size });
       ++drones;
     } else {
       drawStation(context, palette, x, y);
     }
   }
   if (options.labels) {
-    const first = (item) => Number(item.node.node === selected || !item.node.vehicle);
+    const first = (item) => Number(item.node.node === selected || !item.node.vehicle || isFailed(item.node));
     for (const item of [...seen].sort((a, b) => first(b) - first(a))) {
       const [x, y] = viewport.toScreen(item.pose.p);
-      if (isFree(taken, x, y, x >= middle[0] - 1)) drawLabel(context, palette, x, y, middle, item);
+      const below = isFailed(item.node) ? 28 : 14;
+      if (isFree(taken, x, y, x >= middle[0] - 1, below)) drawLabel(context, palette, x, y, middle, item);
     }
   }
   drawScaleBar(context, viewport, palette);

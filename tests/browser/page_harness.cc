@@ -1,8 +1,9 @@
 // Plays the orchestrator, world, radio and fleet for a real cuscus-gcs, so that its page can be
-// looked at without privileges: page_harness --gcs <path> [--uavs N] [--duration-s S].
+// looked at without privileges: page_harness --gcs <path> [--uavs N] [--duration-s S] [--failed
+// UAV]. UAV number --failed says that it is in failsafe.
 //
-// Prints {"url": ...} once the page is up. Runs until standard input ends or says a line; then
-// stops the ground station and prints {"exit_code": ..., "stop_ms": ..., report}.
+// Prints {"url": ..., "gcs_pid": ...} once the page is up. Runs until standard input ends or says a
+// line; then stops the ground station and prints {"exit_code": ..., "stop_ms": ..., report}.
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -45,6 +46,7 @@ struct Options {
   std::string gcs;
   std::uint32_t uavs{10};
   std::int64_t duration_s{60};
+  std::optional<std::uint32_t> failed;
 };
 
 Options parse(int argc, char** argv) {
@@ -57,12 +59,15 @@ Options parse(int argc, char** argv) {
       options.uavs = static_cast<std::uint32_t>(std::stoul(argv[i + 1]));
     } else if (name == "--duration-s") {
       options.duration_s = std::stol(argv[i + 1]);
+    } else if (name == "--failed") {
+      options.failed = static_cast<std::uint32_t>(std::stoul(argv[i + 1]));
     } else {
       throw std::invalid_argument{"unknown option " + std::string{name}};
     }
   }
   if (options.gcs.empty()) {
-    throw std::invalid_argument{"usage: page_harness --gcs <path> [--uavs N] [--duration-s S]"};
+    throw std::invalid_argument{
+        "usage: page_harness --gcs <path> [--uavs N] [--duration-s S] [--failed UAV]"};
   }
   return options;
 }
@@ -122,8 +127,9 @@ class Child {
 /// Everything around the ground station.
 class Surroundings {
  public:
-  explicit Surroundings(std::uint32_t uavs)
+  Surroundings(std::uint32_t uavs, std::optional<std::uint32_t> failed)
       : uavs_{uavs},
+        failed_{failed},
         fleet_fd_{
             posix::create_shared_memory("fleet", shm::FleetMemoryWriter::byte_size(uavs + 1))},
         radio_fd_{
@@ -239,7 +245,7 @@ class Surroundings {
     message.set_vx_mps(static_cast<float>(truth.v_WB_W_mps[0]));
     message.set_vy_mps(static_cast<float>(truth.v_WB_W_mps[1]));
     message.set_yaw_rad(static_cast<float>(2.0 * std::atan2(truth.q_WB[3], truth.q_WB[0])));
-    message.set_state("flying");
+    message.set_state(uav == failed_ ? "failsafe" : "flying");
     message.set_neighbours_heard(uavs_ - 1);
     const std::string bytes = message.SerializeAsString();
     send(bytes.data(), bytes.size(), port);
@@ -256,6 +262,7 @@ class Surroundings {
   }
 
   std::uint32_t uavs_;
+  std::optional<std::uint32_t> failed_;
   posix::UniqueFd fleet_fd_;
   posix::UniqueFd radio_fd_;
   posix::MemoryMapping fleet_mapping_;
@@ -344,7 +351,7 @@ void run(const Options& options) {
   std::uint16_t page_port = 0;
   const posix::UniqueFd listener = bound_socket(SOCK_STREAM, page_port);
   posix::check("listen", ::listen(listener.get(), SOMAXCONN));
-  Surroundings surroundings{options.uavs};
+  Surroundings surroundings{options.uavs, options.failed};
   std::optional<Child> child;
   std::uint16_t telemetry_port = 0;
   for (int attempt = 0; !child; ++attempt) {

@@ -120,7 +120,13 @@ async function checkNextRun(page) {
   assert.deepEqual(names.after, names.before.map((name) => `next-${name}`));
 }
 
-const run = await startHarness(harness, gcs);
+async function checkFailsafe(page) {
+  await page.waitForFunction(() => document.getElementById('card-failsafe').textContent === '1');
+  assert.ok(await page.locator('#failsafe').isVisible());
+  assert.equal(await page.locator('.state[data-state="failsafe"]').count(), 1);
+}
+
+const run = await startHarness(harness, gcs, '--failed', '7');
 try {
   for (const colorScheme of ['light', 'dark']) {
     await withPage({ url: run.url, colorScheme }, async (page, complaints) => {
@@ -134,6 +140,7 @@ try {
       } else {
         await checkControls(page);
         await checkNextRun(page);
+        await checkFailsafe(page);
       }
       await page.screenshot({ path: join(folder, `page-${colorScheme}.png`) });
       assert.deepEqual(complaints, []);
