@@ -1,13 +1,14 @@
 #include "ground-station/core/fleet_picture.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
+
+#include "ground-station/core/link_picture.h"
 
 namespace cuscus::gcs {
 namespace {
@@ -61,29 +62,6 @@ bool FleetPicture::receive(std::span<const std::byte> datagram, SimTime now) {
   return true;
 }
 
-std::vector<Snapshot::Link> strongest_links(std::span<const Observation::Link> links, SimTime now,
-                                            std::size_t most, std::size_t& left_out) {
-  std::vector<Snapshot::Link> shown;
-  for (const Observation::Link& link : links) {
-    // A frame may carry a time just ahead of the `now` that was taken before the links were read.
-    const auto age = std::max(now - link.heard, SimClock::duration{0});
-    if (age <= FleetPicture::kLinkMemory && std::isfinite(link.received_dbm)) {
-      shown.push_back({.sender = link.sender,
-                       .receiver = link.receiver,
-                       .received_dbm = static_cast<double>(link.received_dbm),
-                       .age = age});
-    }
-  }
-  const auto stronger = [](const Snapshot::Link& a, const Snapshot::Link& b) {
-    return a.received_dbm > b.received_dbm;
-  };
-  left_out = shown.size() - std::min(shown.size(), most);
-  const auto end = shown.end() - static_cast<std::ptrdiff_t>(left_out);
-  std::partial_sort(shown.begin(), end, shown.end(), stronger);
-  shown.erase(end, shown.end());
-  return shown;
-}
-
 Snapshot FleetPicture::snapshot(const Observation& observation, SimTime now, RunState state) const {
   Snapshot result{};
   result.run_id = configuration_.run_id();
@@ -97,12 +75,15 @@ Snapshot FleetPicture::snapshot(const Observation& observation, SimTime now, Run
     result.circle = {.p_WC_centre_m = {centre.x(), centre.y(), centre.z()},
                      .radius_m = circle.radius_m()};
   }
+  LinkPicture links = link_picture(observation, now, kMostLinks);
   for (const proto::GroundStationNode& node : configuration_.nodes()) {
     Snapshot::Node& shown = result.nodes.emplace_back();
     shown.node = node.node();
     shown.name = node.name();
     shown.address = node.address();
     shown.is_vehicle = node.is_vehicle();
+    shown.telemetry_period = SimClock::duration{node.telemetry_period_ns()};
+    shown.hears = node.node() < links.hears.size() ? links.hears[node.node()] : 0;
     shown.truth = element(observation.truth, node.node());
     shown.radio = element(observation.tallies, node.node());
     const auto found = vehicles_.find(node.node());
@@ -115,7 +96,8 @@ Snapshot FleetPicture::snapshot(const Observation& observation, SimTime now, Run
                          .recent_loss_ratio = vehicle.tally.recent_loss_ratio()};
     }
   }
-  result.links = strongest_links(observation.links, now, kMostLinks, result.links_left_out);
+  result.links = std::move(links.strongest);
+  result.links_left_out = links.left_out;
   result.world = observation.world;
   result.radio = observation.radio;
   result.telemetry_received = received_;

@@ -20,9 +20,7 @@ namespace cuscus::gcs {
 /// true, so that an operator sees both what a real one would know and what it would miss.
 class FleetPicture {
  public:
-  /// A link is shown while its latest frame is no older than this.
-  static constexpr SimClock::duration kLinkMemory = std::chrono::seconds{1};
-  /// More links than this would cost more to draw than they tell.
+  /// More linked pairs than this would cost more to draw than they tell.
   static constexpr std::size_t kMostLinks = 2000;
 
   /// @throws std::invalid_argument when two nodes have one number.
@@ -54,11 +52,5 @@ class FleetPicture {
   std::uint64_t received_{0};
   std::array<std::uint64_t, kTelemetryFaults> rejected_{};
 };
-
-/// The links that a picture shows: heard within FleetPicture::kLinkMemory before `now`, the
-/// `most` strongest, strongest first. `left_out` counts those beyond.
-[[nodiscard]] std::vector<Snapshot::Link> strongest_links(std::span<const Observation::Link> links,
-                                                          SimTime now, std::size_t most,
-                                                          std::size_t& left_out);
 
 }  // namespace cuscus::gcs

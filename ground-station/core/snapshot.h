@@ -66,15 +66,19 @@ struct Snapshot {
     std::string name;
     std::string address;
     bool is_vehicle;
+    SimClock::duration telemetry_period;  ///< Of our agent; 0: another program's, or none.
+    std::uint32_t hears;                  ///< Nodes heard within the last second.
     std::optional<Telemetry> telemetry;
     std::optional<Observation::Truth> truth;
     std::optional<shm::RadioTally> radio;
   };
+  /// Two nodes of which at least one heard the other.
   struct Link {
-    std::uint32_t sender;
-    std::uint32_t receiver;
-    double received_dbm;
-    SimClock::duration age;
+    std::uint32_t a;  ///< Below b.
+    std::uint32_t b;
+    double received_dbm;     ///< Of the weaker way.
+    SimClock::duration age;  ///< Of the latest frame.
+    bool one_way;            ///< One did not hear the other, although that one has sent frames.
   };
 
   std::string run_id;

@@ -124,6 +124,8 @@ void write(JsonWriter& json, const Snapshot::Node& node) {
   field(json, "name", node.name);
   field(json, "address", node.address);
   flag(json, "vehicle", node.is_vehicle);
+  field(json, "telemetry_period_s", to_seconds(node.telemetry_period), kMillimetres);
+  field(json, "hears", node.hears);
   const auto whole = [&](const auto& part) { write(json, part); };
   optional_object(json, "telemetry", node.telemetry, whole);
   optional_object(json, "truth", node.truth, whole);
@@ -173,10 +175,11 @@ void write_links(JsonWriter& json, const Snapshot& snapshot) {
   json.begin_array();
   for (const Snapshot::Link& link : snapshot.links) {
     json.begin_array();
-    json.integer(link.sender);
-    json.integer(link.receiver);
+    json.integer(link.a);
+    json.integer(link.b);
     json.number(link.received_dbm, kTenths);
     json.number(std::max(0.0, to_seconds(link.age)), kMillimetres);
+    json.boolean(link.one_way);
     json.end_array();
   }
   json.end_array();
@@ -187,11 +190,11 @@ void write_links(JsonWriter& json, const Snapshot& snapshot) {
 
 std::string to_json(const Snapshot& snapshot) {
   constexpr std::size_t kNode_bytes = 1100;
-  constexpr std::size_t kLink_bytes = 24;
+  constexpr std::size_t kLink_bytes = 30;
   JsonWriter json;
   json.reserve(kNode_bytes * (snapshot.nodes.size() + 1) + kLink_bytes * snapshot.links.size());
   json.begin_object();
-  field(json, "version", std::uint64_t{1});
+  field(json, "version", std::uint64_t{2});
   write_run(json, snapshot);
   optional_object(json, "circle", snapshot.circle, [&](const Snapshot::Circle& circle) {
     field(json, "centre_m", circle.p_WC_centre_m);

@@ -7,10 +7,9 @@ function causes(counts) {
   return some.length ? some.map(([cause, count]) => `${words(cause)} ${number(count)}`).join(' · ') : 'none';
 }
 
-export function factsOf(node, snapshot) {
+export function factsOf(node) {
   const { telemetry, truth, radio } = node;
   const off = telemetry && truth ? Math.hypot(...truth.p_m.map((c, i) => c - telemetry.p_m[i])) : null;
-  const heard = snapshot.links.filter(([, receiver]) => receiver === node.node).length;
   const facts = [['Truth, ENU m', position(truth?.p_m)]];
   if (node.vehicle) {
     facts.push(
@@ -21,7 +20,7 @@ export function factsOf(node, snapshot) {
   }
   return [
     ...facts,
-    ['Hears', `${heard} nodes`],
+    ['Hears', `${node.hears} nodes`],
     ['Address', node.address || NOTHING],
     ['Offered', number(radio?.offered)],
     ['Retries', number(radio?.retries)],

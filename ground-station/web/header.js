@@ -1,6 +1,7 @@
 // The header: scenario, time, lateness, connection; and the cards above the table.
 
 import { duration, microseconds, number } from './format.js';
+import { isLost } from './model.js';
 
 const element = (id) => document.getElementById(id);
 
@@ -29,7 +30,7 @@ function showLateness(lateness) {
 
 function showCards(snapshot) {
   const vehicles = snapshot.nodes.filter((node) => node.vehicle);
-  const heard = vehicles.filter((node) => node.telemetry && node.telemetry.age_s <= 1).length;
+  const heard = vehicles.filter((node) => !isLost(node)).length;
   write('card-heard', `${heard} / ${vehicles.length}`);
   element('card-heard').dataset.level = heard < vehicles.length ? 'fair' : '';
   write('card-links', number(snapshot.links.length + snapshot.links_left_out));

@@ -5,7 +5,16 @@ export const TRAIL_S = 20;
 const SHOWN_LATER_S = 0.15;
 /** How long a pose is carried on along its velocity when no newer one comes. */
 const CARRY_ON_S = 0.4;
-const LOST_S = 1;
+const LATE_S = 1;
+
+/** Seconds without telemetry after which a UAV is lost: three of its periods, a second at least. */
+export function lostAfter(node) {
+  return Math.max(1, 3 * node.telemetry_period_s);
+}
+
+export function isLost(node) {
+  return !node.telemetry || node.telemetry.age_s > lostAfter(node);
+}
 
 function lerp(a, b, k) {
   return a + (b - a) * k;
@@ -27,7 +36,7 @@ export class Track {
     if (last && t <= last.t) return;
     this.samples.push({ t, p: pose.p_m, v: pose.v_mps, yaw: pose.yaw_rad });
     let old = 0;
-    while (this.samples[old].t < t - TRAIL_S - LOST_S) ++old;
+    while (this.samples[old].t < t - TRAIL_S - LATE_S) ++old;
     if (old > 0) this.samples.splice(0, old);
   }
 
@@ -75,7 +84,7 @@ export class FleetModel {
     this.snapshot = snapshot;
     const offset = t - now;
     // Pictures can be late, never early: follow an early one at once, late ones slowly.
-    if (this.offset === null || offset > this.offset || this.offset - offset > LOST_S) this.offset = offset;
+    if (this.offset === null || offset > this.offset || this.offset - offset > LATE_S) this.offset = offset;
     else this.offset = lerp(this.offset, offset, 0.02);
     for (const node of snapshot.nodes) {
       if (!this.tracks.has(node.node)) this.tracks.set(node.node, { truth: new Track(), telemetry: new Track() });
@@ -114,25 +123,13 @@ export class FleetModel {
         pose: wanted,
         other: source === 'truth' ? said : truth,
         trail: source === 'truth' || !node.vehicle ? tracks.truth : tracks.telemetry,
-        lost: node.vehicle && (!node.telemetry || node.telemetry.age_s > LOST_S),
+        lost: node.vehicle && isLost(node),
       };
     });
   }
 
-  /** Undirected links: [{a, b, dbm (of the weaker way), mutual, age}]. */
+  /** The linked pairs: [{a, b, dbm (of the weaker way), age, oneWay}]. */
   links() {
-    const pairs = new Map();
-    for (const [sender, receiver, dbm, age] of this.snapshot?.links ?? []) {
-      const key = sender < receiver ? `${sender},${receiver}` : `${receiver},${sender}`;
-      const known = pairs.get(key);
-      if (known) {
-        known.dbm = Math.min(known.dbm, dbm);
-        known.age = Math.min(known.age, age);
-        known.mutual = true;
-      } else {
-        pairs.set(key, { a: sender, b: receiver, dbm, age, mutual: false });
-      }
-    }
-    return [...pairs.values()];
+    return (this.snapshot?.links ?? []).map(([a, b, dbm, age, oneWay]) => ({ a, b, dbm, age, oneWay }));
   }
 }

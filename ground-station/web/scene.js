@@ -52,7 +52,7 @@ function drawLinks(context, viewport, palette, links, byNode, selected) {
     const alpha = (concerned ? (0.3 + 0.45 * strength(link.dbm)) * bold : 0.07 * faint) * fresh;
     context.strokeStyle = levelColour(palette, link.dbm, alpha);
     context.lineWidth = 1 + 1.2 * strength(link.dbm) + (concerned && selected !== null ? 0.8 : 0);
-    context.setLineDash(link.mutual ? [] : [3, 6]);
+    context.setLineDash(link.oneWay ? [3, 6] : []);
     context.beginPath();
     context.moveTo(...viewport.toScreen(a.p));
     context.lineTo(...viewport.toScreen(b.p));

@@ -2,6 +2,7 @@
 
 import { factsOf, factsOfAll, showFacts } from './details.js';
 import { NOTHING, count, number, percent, sum } from './format.js';
+import { lostAfter } from './model.js';
 
 function levelOf(value, fair, bad) {
   if (value === undefined || value === null) return '';
@@ -16,7 +17,7 @@ function cellsOf(node, source) {
   return [
     [number(pose?.p_m[2], 1)],
     [node.vehicle ? number(pose?.speed_mps, 2) : NOTHING],
-    [number(telemetry?.age_s, 2), levelOf(telemetry?.age_s, 0.5, 1)],
+    [number(telemetry?.age_s, 2), levelOf(telemetry?.age_s, lostAfter(node) / 2, lostAfter(node))],
     [percent(telemetry?.loss), levelOf(telemetry?.loss, 0.05, 0.25)],
     [count(radio?.transmissions)],
     [count(radio?.received)],
@@ -88,6 +89,6 @@ export class FleetTable {
 
   #showDetails(snapshot) {
     const node = snapshot.nodes.find((candidate) => candidate.node === this.selected);
-    showFacts(this.details, node ? node.name : 'Whole fleet', node ? factsOf(node, snapshot) : factsOfAll(snapshot));
+    showFacts(this.details, node ? node.name : 'Whole fleet', node ? factsOf(node) : factsOfAll(snapshot));
   }
 }

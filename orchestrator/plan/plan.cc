@@ -268,6 +268,9 @@ class Planner {
       entry.set_name(node.name);
       entry.set_address(node.ip);
       entry.set_is_vehicle(node.role == NodeRole::kUav);
+      if (node.agent) {
+        entry.set_telemetry_period_ns(node.agent->telemetry_period_ns());
+      }
     }
     for (const Group& group : scenario_.fleet) {
       if (group.mission && !configuration.has_circle()) {

@@ -191,15 +191,18 @@ class Surroundings {
     fleet_.publish_progress(static_cast<std::uint64_t>(now_ns / 1'000'000), 0, now_ns);
   }
 
-  /// Everybody hears everybody whose frames come in above -94 dBm (log-distance, n = 3.5).
+  /// Everybody hears every UAV whose frames come in above -91 dBm (log-distance, n = 3.5). The
+  /// ground station has nothing to send, as a real one.
   void transmit(std::int64_t now_ns) {
     ++frames_;
     for (std::uint32_t receiver = 0; receiver <= uavs_; ++receiver) {
       shm::RadioTally tally{};
-      tally.offered = frames_ * 2;
-      tally.transmissions = frames_ * 2 + frames_ / 9;
-      tally.retries = frames_ / 9;
-      for (std::uint32_t sender = 0; sender <= uavs_; ++sender) {
+      if (receiver < uavs_) {
+        tally.offered = frames_ * 2;
+        tally.transmissions = frames_ * 2 + frames_ / 9;
+        tally.retries = frames_ / 9;
+      }
+      for (std::uint32_t sender = 0; sender < uavs_; ++sender) {
         if (sender == receiver) {
           continue;
         }

@@ -71,6 +71,12 @@ async function checkSnapshot(url) {
   assert.equal(snapshot.run.scenario, `Circle of ${DRONES} <quadrotors>`);
   assert.ok(snapshot.run.telemetry.rejected > 0, 'garbage is counted');
   assert.ok(snapshot.links.length > 0);
+  assert.ok(snapshot.links.every(([a, b]) => a < b), 'a link is a pair');
+  const station = snapshot.nodes.find((node) => !node.vehicle);
+  const toStation = snapshot.links.filter(([, b]) => b === station.node);
+  assert.equal(station.hears, toStation.length);
+  assert.ok(station.hears > 0);
+  assert.ok(toStation.every(([, , , , oneWay]) => !oneWay), 'a station that is silent is not out of earshot');
   const levels = snapshot.links.map(([, , dbm]) => dbm);
   assert.deepEqual(levels, [...levels].sort((a, b) => b - a), 'strongest first');
 }
@@ -120,6 +126,15 @@ async function checkNextRun(page) {
   assert.deepEqual(names.after, names.before.map((name) => `next-${name}`));
 }
 
+/** Seconds of silence after which a UAV counts as lost follow its telemetry period. */
+async function checkLostAfter(page) {
+  const seconds = await page.evaluate(async () => {
+    const { lostAfter } = await import('/model.js');
+    return [0, 0.2, 5].map((period) => lostAfter({ telemetry_period_s: period }));
+  });
+  assert.deepEqual(seconds, [1, 1, 15]);
+}
+
 async function checkFailsafe(page) {
   await page.waitForFunction(() => document.getElementById('card-failsafe').textContent === '1');
   assert.ok(await page.locator('#failsafe').isVisible());
@@ -140,6 +155,7 @@ try {
       } else {
         await checkControls(page);
         await checkNextRun(page);
+        await checkLostAfter(page);
         await checkFailsafe(page);
       }
       await page.screenshot({ path: join(folder, `page-${colorScheme}.png`) });

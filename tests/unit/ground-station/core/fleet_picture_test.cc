@@ -24,6 +24,7 @@ proto::GroundStationConfiguration configuration() {
     item->set_node(node);
     item->set_name("node" + std::to_string(node));
     item->set_is_vehicle(node != 2);
+    item->set_telemetry_period_ns(node == 1 ? 5'000'000'000 : 0);
   }
   return result;
 }
@@ -59,6 +60,8 @@ TEST_CASE("a picture shows what was said beside what is true") {
   CHECK(snapshot.nodes[1].telemetry->sample.p_WB_m[0] == 40.0);
   CHECK(snapshot.nodes[1].telemetry->age == std::chrono::milliseconds{250});
   CHECK(snapshot.nodes[1].truth->p_WB_m[0] == 41.0);
+  CHECK(snapshot.nodes[1].telemetry_period == std::chrono::seconds{5});
+  CHECK(snapshot.nodes[1].hears == 0);
   CHECK(snapshot.scenario_name == "two and one");
   CHECK_FALSE(snapshot.circle);
   CHECK(snapshot.telemetry_received == 1);
@@ -92,34 +95,6 @@ TEST_CASE("telemetry of a node that is no UAV of the fleet is counted and ignore
   CHECK(picture.rejected(TelemetryFault::kUnknownNode) == 2);
   CHECK(picture.rejected(TelemetryFault::kNotFinite) == 1);
   CHECK(picture.rejected(TelemetryFault::kMalformed) == 1);
-}
-
-TEST_CASE("links are those heard within the last second, strongest first") {
-  const std::vector<Observation::Link> links{
-      {.sender = 0, .receiver = 1, .received_dbm = -70.0F, .heard = at_ms(4999)},  // too old
-      {.sender = 1, .receiver = 0, .received_dbm = -80.0F, .heard = at_ms(5000)},
-      {.sender = 2, .receiver = 0, .received_dbm = -60.0F, .heard = at_ms(6001)},  // just read
-      {.sender = 0,
-       .receiver = 2,
-       .received_dbm = -std::numeric_limits<float>::infinity(),
-       .heard = at_ms(6000)},
-      {.sender = 1, .receiver = 2, .received_dbm = -65.0F, .heard = at_ms(5500)},
-  };
-  std::size_t left_out = 99;
-
-  const auto all = strongest_links(links, at_ms(6000), 10, left_out);
-  CHECK(left_out == 0);
-  REQUIRE(all.size() == 3);
-  CHECK(all[0].received_dbm == -60.0);
-  CHECK(all[0].age == SimClock::duration{0});
-  CHECK(all[1].received_dbm == -65.0);
-  CHECK(all[1].age == std::chrono::milliseconds{500});
-  CHECK(all[2].received_dbm == -80.0);
-
-  const auto two = strongest_links(links, at_ms(6000), 2, left_out);
-  CHECK(left_out == 1);
-  REQUIRE(two.size() == 2);
-  CHECK(two[1].received_dbm == -65.0);
 }
 
 TEST_CASE("a configuration that names a node twice is refused") {

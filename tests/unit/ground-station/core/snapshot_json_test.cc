@@ -82,16 +82,21 @@ Snapshot example() {
                    .recent_loss_ratio = 0.0};
   uav.radio = shm::RadioTally{};
   uav.radio->lost_collision = 5;
+  uav.telemetry_period = std::chrono::milliseconds{200};
+  uav.hears = 7;
   snapshot.nodes.emplace_back().node = 1;
-  snapshot.links = {
-      {.sender = 0, .receiver = 1, .received_dbm = -57.25, .age = std::chrono::milliseconds{20}}};
+  snapshot.links = {{.a = 0,
+                     .b = 1,
+                     .received_dbm = -57.25,
+                     .age = std::chrono::milliseconds{20},
+                     .one_way = true}};
   return snapshot;
 }
 
 TEST_CASE("a snapshot in JSON says what it held") {
   const json document = json::parse(to_json(example()));
 
-  CHECK(document["version"] == 1);
+  CHECK(document["version"] == 2);
   CHECK(document["run"]["scenario"] == "<b>");
   CHECK(document["run"]["state"] == "running");
   CHECK(document["run"]["sim_time_s"] == 2.5);
@@ -102,6 +107,8 @@ TEST_CASE("a snapshot in JSON says what it held") {
   CHECK(document["run"]["radio"]["lateness_us"]["p99"] == 61.5);
   CHECK(document["circle"]["radius_m"] == 40);
   const json& uav = document["nodes"][0];
+  CHECK(uav["telemetry_period_s"] == 0.2);
+  CHECK(uav["hears"] == 7);
   CHECK(uav["telemetry"]["p_m"] == json({1, 2, 3}));
   CHECK(uav["telemetry"]["speed_mps"] == 5);
   CHECK(uav["telemetry"]["age_s"] == 0.25);
@@ -109,7 +116,7 @@ TEST_CASE("a snapshot in JSON says what it held") {
   CHECK(uav["truth"].is_null());
   CHECK(uav["radio"]["lost"]["collision"] == 5);
   CHECK(document["nodes"][1]["telemetry"].is_null());
-  CHECK(document["links"] == json::parse("[[0, 1, -57.2, 0.02]]"));
+  CHECK(document["links"] == json::parse("[[0, 1, -57.2, 0.02, true]]"));
 }
 
 TEST_CASE("a picture of an empty run is JSON as well") {
