@@ -41,6 +41,7 @@ function frame() {
   const drawn = drawScene(context, viewport, palette, { placed, links, circle, t, options, selected });
   canvas.dataset.drones = drawn.drones;
   canvas.dataset.links = drawn.links;
+  canvas.dataset.places = JSON.stringify(drawn.places);
   // A picture that stands still is drawn again only when something asks for it.
   if (moving || document.body.dataset.connection === 'live') requestFrame();
 }

@@ -217,12 +217,12 @@ function drawLabel(context, palette, x, y, middle, item) {
 
 /**
  * Draws one frame. `placed` is FleetModel.poses(), `t` the sim time shown.
- * @return how much was drawn: {drones, links}
+ * @return what was drawn: {drones, links} counted, and places: [[node, x, y]] on the canvas
  */
 export function drawScene(context, viewport, palette, { placed, links, circle, t, options, selected }) {
   context.fillStyle = palette.plan;
   context.fillRect(0, 0, viewport.width, viewport.height);
-  if (!viewport.centre) return { drones: 0, links: 0 };
+  if (!viewport.centre) return { drones: 0, links: 0, places: [] };
   const byNode = new Map(placed.map((item) => [item.node.node, item]));
   const seen = placed.filter((item) => item.pose);
   const colourOf = (item) => stateColour(palette, item.node.telemetry?.state);
@@ -242,8 +242,10 @@ export function drawScene(context, viewport, palette, { placed, links, circle, t
   let drones = 0;
   const size = seen.length > CROWD ? 0.7 : 1;
   const taken = [];
+  const places = [];
   for (const item of seen) {
     const [x, y] = viewport.toScreen(item.pose.p);
+    places.push([item.node.node, Math.round(10 * x) / 10, Math.round(10 * y) / 10]);
     if (item.node.vehicle) {
       drawDrone(context, palette, x, y, item.pose.yaw, colourOf(item),
         { lost: item.lost, failed: isFailed(item.node), selected: item.node.node === selected, size });
@@ -262,5 +264,5 @@ export function drawScene(context, viewport, palette, { placed, links, circle, t
   }
   drawScaleBar(context, viewport, palette);
   drawNorth(context, viewport, palette);
-  return { drones, links: linksDrawn };
+  return { drones, links: linksDrawn, places };
 }

@@ -46,6 +46,44 @@ export function coloursOfPlan(page) {
   });
 }
 
+/** Where the page has drawn the nodes: {node: [x, y]} in pixels of the plan, and the plan's size. */
+export function drawnPlaces(page) {
+  return page.evaluate(() => {
+    const canvas = document.getElementById('plan');
+    const places = Object.fromEntries(JSON.parse(canvas.dataset.places ?? '[]').map(([node, x, y]) => [node, [x, y]]));
+    return { places, width: canvas.clientWidth, height: canvas.clientHeight };
+  });
+}
+
+/**
+ * Waits until every drone has been drawn elsewhere, on a plan that itself stood still meanwhile,
+ * and checks that all lie inside of it.
+ */
+async function checkDrawnMotion(page) {
+  const FAR_PX = 3;
+  const { nodes } = await snapshotOf(page);
+  const numbers = (vehicle) => nodes.filter((node) => node.vehicle === vehicle).map(({ node }) => node);
+  let first = await drawnPlaces(page);
+  for (;;) {
+    const now = await drawnPlaces(page);
+    const moved = (node) => Math.hypot(...now.places[node].map((c, i) => c - first.places[node][i]));
+    if (numbers(false).some((node) => moved(node) > 0.5)) first = now;  // the view follows the fleet
+    if (numbers(true).every((node) => moved(node) > FAR_PX)) {
+      for (const [node, [x, y]] of Object.entries(now.places)) {
+        assert.ok(x >= 0 && y >= 0 && x <= now.width && y <= now.height, `node ${node} is drawn at ${x}, ${y}`);
+      }
+      return;
+    }
+    await page.evaluate(() => new Promise(requestAnimationFrame));
+  }
+}
+
+/** Checks that nothing sticks out to the side. */
+export async function checkNoOverflow(page) {
+  const [content, window] = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
+  assert.ok(content <= window, `the page is ${content} px wide in a window of ${window} px`);
+}
+
 /** Waits until the page shows `drones` UAVs that are heard, drawn, linked and moving. */
 export async function checkLivePage(page, drones) {
   await page.locator('body[data-connection="live"]').waitFor();
@@ -63,6 +101,8 @@ export async function checkLivePage(page, drones) {
   const first = positions(await snapshotOf(page));
   assert.equal(first.length, drones);
   await awaitSnapshot(page, (snapshot) => positions(snapshot).every((position, i) => position !== first[i]));
+  await checkDrawnMotion(page);
   assert.ok(await coloursOfPlan(page) > 50, 'the plan is drawn');
+  await checkNoOverflow(page);
   return read(page);
 }

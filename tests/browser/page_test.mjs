@@ -143,6 +143,11 @@ async function checkFailsafe(page) {
 
 const run = await startHarness(harness, gcs, '--failed', '7');
 try {
+  await withPage({ url: run.url, width: 390, height: 844 }, async (page, complaints) => {
+    await checkLivePage(page, DRONES);
+    await page.screenshot({ path: join(folder, 'page-narrow.png') });
+    assert.deepEqual(complaints, []);
+  });
   for (const colorScheme of ['light', 'dark']) {
     await withPage({ url: run.url, colorScheme }, async (page, complaints) => {
       const seen = await checkLivePage(page, DRONES);
