@@ -94,6 +94,7 @@ TEST_CASE("Each component of the default scenario is told all that it needs") {
   CHECK(agent.telemetry_address() == "10.42.0.11");
   CHECK(agent.telemetry_port() == 47000);
   CHECK(agent.slot_nodes_size() == 10);
+  CHECK(agent.motion_capture_noise_m() == 0.0002);
   CHECK(agent.realtime_priority() < world.realtime_priority());
 
   const proto::GroundStationConfiguration& gcs = plan.ground_station.value();
@@ -101,6 +102,8 @@ TEST_CASE("Each component of the default scenario is told all that it needs") {
   CHECK(gcs.nodes_size() == 11);
   CHECK(gcs.nodes(0).is_vehicle());
   CHECK_FALSE(gcs.nodes(10).is_vehicle());
+  CHECK(gcs.nodes(0).telemetry_period_ns() == 200'000'000);
+  CHECK(gcs.nodes(10).telemetry_period_ns() == 0);
   CHECK(gcs.circle().radius_m() == 20.0);
   CHECK(gcs.duration_ns() == 60'000'000'000);
 }
