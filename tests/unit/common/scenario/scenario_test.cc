@@ -225,7 +225,8 @@ TEST_CASE("A file that cannot be a scenario is refused by its name") {
 }
 
 TEST_CASE("A fleet of one thousand is allowed") {
-  const Scenario scenario = parse(R"({"name": "t", "fleet": [{"count": 1000}]})");
+  const Scenario scenario =
+      parse(R"({"name": "t", "fleet": [{"count": 1000}], "ground_station": {"enabled": false}})");
 
   CHECK(scenario.uav_count() == 1000);
 }
