@@ -109,6 +109,21 @@ void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& 
   print(stdout, "results {}\n{}\n", results.native(), verdict_line(fidelity));
 }
 
+/// Judges the run, saves what can be saved and says how it ended; its exit code.
+int conclude(const FlightEnd& end, RunOutcome outcome, const FidelityInputs& inputs,
+             const RunDirectory& directory) {
+  const Fidelity fidelity = judge(inputs);
+  outcome.exit_code = exit_code_of(end, fidelity.verdict);
+  if (!save(directory, kFidelityFile, to_json(fidelity, inputs))) {
+    outcome.exit_code = kExitFailed;
+  }
+  if (!save(directory, kSummaryFile, to_json(outcome, fidelity))) {
+    outcome.exit_code = kExitFailed;
+  }
+  print_end(end, outcome, fidelity, directory.path());
+  return outcome.exit_code;
+}
+
 }  // namespace
 
 int run_command(const RunArguments& arguments) {
@@ -165,19 +180,9 @@ int run_command(const RunArguments& arguments) {
   }
 
   facts.suspended = std::chrono::nanoseconds{suspended_ns() - suspended_before_ns};
-  const FidelityInputs inputs = fidelity_inputs(plan, run, facts);
-  const Fidelity fidelity = judge(inputs);
   RunOutcome outcome = run_outcome(plan, run, sampler, facts);
   outcome.metrics_rows_dropped = metrics.rows_dropped();
-  outcome.exit_code = exit_code_of(run.end(), fidelity.verdict);
-  if (!save(directory, kFidelityFile, to_json(fidelity, inputs))) {
-    outcome.exit_code = kExitFailed;
-  }
-  if (!save(directory, kSummaryFile, to_json(outcome, fidelity))) {
-    outcome.exit_code = kExitFailed;
-  }
-  print_end(run.end(), outcome, fidelity, directory.path());
-  return outcome.exit_code;
+  return conclude(run.end(), std::move(outcome), fidelity_inputs(plan, run, facts), directory);
 }
 
 }  // namespace cuscus::orchestrator
