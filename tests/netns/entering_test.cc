@@ -79,16 +79,17 @@ TEST_CASE("a visitor's exit code is the program's, or tells the signal") {
 /// Runs fleet_owner as an ordinary user, with /dev/net/tun of the given mode.
 VisitResult run_without_root(const std::string& tun_mode, const std::string& attachment) {
   const auto output = test::memory_file();
-  const auto owner =
-      std::filesystem::read_symlink("/proc/self/exe").replace_filename("fleet_owner").string();
-  // The host's device keeps its mode: this one is in a mount namespace of the test's own.
+  const auto programs = std::filesystem::read_symlink("/proc/self/exe").parent_path().string();
+  // The host's device keeps its mode: this one is in a mount namespace of the test's own, where an
+  // ordinary user also reaches the programs, wherever they were built.
   const std::string script =
-      "mount -t tmpfs none /mnt && mknod -m " + tun_mode +
+      "mount -t tmpfs none /mnt && mkdir /mnt/bin && mount --bind \"$0\" /mnt/bin && mknod -m " +
+      tun_mode +
       " /mnt/tun c 10 200 && mount --bind /mnt/tun /dev/net/tun && "
       "exec setpriv --reuid 65534 --regid 65534 --clear-groups --inh-caps=-all "
-      "--bounding-set=-all \"$0\" \"$1\" ping";
+      "--bounding-set=-all /mnt/bin/fleet_owner \"$1\" ping";
   auto child = posix::ChildProcess::spawn(
-      {.arguments = {"unshare", "--mount", "sh", "-c", script, owner, attachment},
+      {.arguments = {"unshare", "--mount", "sh", "-c", script, programs, attachment},
        .environment = {"PATH=/usr/sbin:/usr/bin:/sbin:/bin"},
        .working_directory = "/",
        .output_fd = output.get()});
