@@ -81,13 +81,15 @@ void check_lift(const Scenario& scenario, Problems& problems) {
   }
 }
 
+bool is_flown_by_ours(const Group& group) { return group.autopilot && group.agent.empty(); }
+
 /// What our autopilot needs: newer commands than the motors wait for, and sensors that it hears.
 void check_control(const Scenario& scenario, Problems& problems) {
   bool piloted = false;
   for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
     const Group& group = scenario.fleet[i];
     const auto* x4 = std::get_if<X4Vehicle>(&group.vehicle);
-    if (x4 == nullptr || !group.autopilot) {
+    if (x4 == nullptr || !is_flown_by_ours(group)) {
       continue;
     }
     piloted = true;
@@ -124,7 +126,7 @@ void check_speed(const Scenario& scenario, Problems& problems) {
   for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
     const Group& group = scenario.fleet[i];
     const auto* x4 = std::get_if<X4Vehicle>(&group.vehicle);
-    if (x4 == nullptr || !group.mission) {
+    if (x4 == nullptr || !group.mission || !is_flown_by_ours(group)) {
       continue;
     }
     const double most_mps = fastest_mps(*group.mission, *x4, scenario.world.gravity_mps2);

@@ -20,7 +20,11 @@ struct DueCopy {
 class DueCopies {
  public:
   void add(const DueCopy& copy) {
-    // Nearly always at the end: only copies whose payload came late belong further in front.
+    if (copies_.empty() || copies_.back().due <= copy.due) {
+      copies_.push_back(copy);
+      return;
+    }
+    // Its payload came late.
     const auto place =
         std::upper_bound(copies_.begin(), copies_.end(), copy.due,
                          [](SimTime due, const DueCopy& other) { return due < other.due; });

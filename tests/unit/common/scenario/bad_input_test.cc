@@ -213,12 +213,15 @@ TEST_CASE("The same key in two objects is no repetition") {
       kSource, "/"));
 }
 
-TEST_CASE("What only the autopilot needs is not asked of what flies without it") {
+TEST_CASE("What only our autopilot needs is not asked of what flies without it") {
   CHECK_NOTHROW(parse_scenario(
       R"({"name": "t", "world": {"motion_capture": {"rate": "1 Hz"}}, "fleet": [
           {"vehicle": {"model": "fixed"}, "control_period": "1 s", "start":
               {"layout": "grid", "centre": ["0 m", "0 m", "10 m"]}},
-          {"name": "on-ground", "autopilot": false, "control_period": "1 s"}]})",
+          {"name": "on-ground", "autopilot": false, "control_period": "1 s"},
+          {"name": "own", "agent": ["./fly"], "control_period": "1 s",
+           "mission": {"type": "circle", "radius": "5 m", "speed": "30 m/s"}, "start":
+              {"layout": "grid", "centre": ["9 m", "0 m", "0 m"]}}]})",
       kSource, "/"));
 }
 
