@@ -1,6 +1,5 @@
 #include "orchestrator/app/live_run.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
@@ -79,12 +78,6 @@ bool is_ignored(int signal_number) {
   return action.sa_handler == SIG_IGN;
 }
 
-posix::UniqueFd open_service_log(const std::filesystem::path& path) {
-  return posix::UniqueFd{posix::check(
-      "open " + path.native(),
-      ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644))};
-}
-
 }  // namespace
 
 LiveRun::LiveRun(const Plan& plan, RunSettings settings)
@@ -159,7 +152,7 @@ void LiveRun::fly(const OnSample& on_sample) {
 }
 
 void LiveRun::start_world() {
-  const auto log = open_service_log(settings_.logs / "world.log");
+  const auto log = settings_.directory.create_log("world.log");
   world_ = std::make_unique<Service>(
       loop_, "world", service_specification("cuscus-world", kWorldService, log.get()), [] {});
   std::vector<GivenDescriptor> given{
@@ -205,7 +198,7 @@ void LiveRun::build_nodes() {
 }
 
 void LiveRun::start_netsim() {
-  const auto log = open_service_log(settings_.logs / "netsim.log");
+  const auto log = settings_.directory.create_log("netsim.log");
   auto specification = service_specification("cuscus-netsim", kNetsimService, log.get());
   specification.network_namespace_fd = fleet_->fabric().network_namespace().fd();
   netsim_ = std::make_unique<Service>(loop_, "netsim", std::move(specification), [] {});
@@ -236,7 +229,7 @@ void LiveRun::start_programs() {
                              .memories = memories_,
                              .rights = settings_.rights,
                              .programs = settings_.programs,
-                             .logs = settings_.logs,
+                             .directory = settings_.directory,
                              .run_id = settings_.run_id,
                              .page_listener = settings_.page_listener.get()},
       [] {});

@@ -18,6 +18,7 @@
 #include "orchestrator/node/fleet.h"
 #include "orchestrator/node/rights.h"
 #include "orchestrator/plan/plan.h"
+#include "orchestrator/results/run_directory.h"
 
 namespace cuscus::orchestrator {
 
@@ -26,9 +27,9 @@ struct RunSettings {
   std::string run_id;
   node::Rights rights{};
   std::filesystem::path programs;  ///< Folder of our own executables.
-  std::filesystem::path logs;
-  posix::UniqueFd page_listener;  ///< Empty: no page.
-  posix::UniqueFd frame_log;      ///< Empty: none is wanted.
+  const RunDirectory& directory;   ///< For one log per process.
+  posix::UniqueFd page_listener;   ///< Empty: no page.
+  posix::UniqueFd frame_log;       ///< Empty: none is wanted.
 };
 
 /// How a flight ended.

@@ -1,6 +1,5 @@
 #include "orchestrator/app/node_crew.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
@@ -8,7 +7,6 @@
 #include <csignal>
 #include <utility>
 
-#include "common/posix/check.h"
 #include "orchestrator/app/ownership.h"
 #include "orchestrator/app/service.h"
 #include "orchestrator/node/node_identity.h"
@@ -17,12 +15,6 @@ namespace cuscus::orchestrator {
 namespace {
 
 using boost::asio::posix::stream_descriptor;
-
-posix::UniqueFd open_log(const std::filesystem::path& path) {
-  return posix::UniqueFd{posix::check(
-      "open " + path.native(),
-      ::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644))};
-}
 
 std::string program_name(const NodePlan& node, const Program& program) {
   return program.kind == ProgramKind::kCommand ? node.name + " command" : node.name;
@@ -184,7 +176,7 @@ void NodeCrew::launch(NodeProgram& program) {
   launch.set_has_control_socket(plan.has_control_socket);
   launch.set_realtime(surroundings_.plan.realtime && plan.has_control_socket);
 
-  const posix::UniqueFd log = open_log(surroundings_.logs / plan.log_name);
+  const posix::UniqueFd log = surroundings_.directory.create_log(plan.log_name);
   auto& node = fleet_.nodes()[program.node];
   if (!plan.has_control_socket) {
     node.launch(launch, log.get());

@@ -16,6 +16,7 @@
 #include "orchestrator/node/fleet.h"
 #include "orchestrator/node/rights.h"
 #include "orchestrator/plan/plan.h"
+#include "orchestrator/results/run_directory.h"
 
 namespace cuscus::orchestrator {
 
@@ -44,7 +45,7 @@ class NodeCrew {
     const RunMemories& memories;
     node::Rights rights;
     std::filesystem::path programs;  ///< Folder of our own executables.
-    std::filesystem::path logs;
+    const RunDirectory& directory;   ///< For one log per program.
     std::string run_id;
     int page_listener{-1};
   };

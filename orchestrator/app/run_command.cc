@@ -166,7 +166,7 @@ int run_command(const RunArguments& arguments) {
               {.run_id = run_id,
                .rights = rights,
                .programs = programs,
-               .logs = directory.path() / kLogFolder,
+               .directory = directory,
                .page_listener = std::move(page_listener),
                .frame_log = plan.record_frames ? directory.create_file(std::string{kFrameLogFile})
                                                : posix::UniqueFd{}}};

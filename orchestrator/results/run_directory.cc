@@ -160,6 +160,10 @@ UniqueFd RunDirectory::create_file(const std::string& name) const {
   });
 }
 
+UniqueFd RunDirectory::create_log(const std::string& name) const {
+  return create_file(std::string{kLogFolder} + '/' + name);
+}
+
 void RunDirectory::create_folder(const std::string& name) const {
   naming("make folder " + (path_ / name).string(),
          [&] { check("mkdirat", ::mkdirat(fd_.get(), name.c_str(), kFolderMode)); });

@@ -47,9 +47,12 @@ class RunDirectory {
   /// @throws std::system_error; the file is then as it was before.
   void write_file(const std::string& name, std::string_view content) const;
 
-  /// A new file `name` to append to, such as "metrics.csv" or "logs/uav3-command.log".
+  /// A new file `name` to append to, such as "metrics.csv".
   /// @throws std::system_error, also when it exists.
   [[nodiscard]] posix::UniqueFd create_file(const std::string& name) const;
+
+  /// A new file in its logs/ folder, to append to, such as "netsim.log".
+  [[nodiscard]] posix::UniqueFd create_log(const std::string& name) const;
 
   /// A new folder `name` in it.
   void create_folder(const std::string& name) const;

@@ -33,7 +33,9 @@ def flying_pair(command0, command1, attach="bridge", **group):
 
 class Programs(unittest.TestCase):
     def check_flight(self, run):
-        self.assertIn(run.wait(), (0, 3), run.stderr)
+        code = run.wait()
+        # A host that was too slow has said so; the flight and the traffic are judged below.
+        self.assertEqual(code, 3 if run.fidelity["verdict"] == "INVALID" else 0, run.stderr)
         last = [row for row in run.metrics() if row["sim_time_s"] > DURATION_S - 1]
         self.assertTrue(last)
         for row in last:
