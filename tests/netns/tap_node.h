@@ -81,6 +81,9 @@ inline void set_up(TapNode& node, std::uint32_t number) {
   check("SIOCSIFFLAGS", ::ioctl(fd, SIOCSIFFLAGS, &request));
   const int on = 1;
   check("SO_BROADCAST", ::setsockopt(fd, SOL_SOCKET, SO_BROADCAST, &on, sizeof on));
+  // What one of these tests sends fits, however long the test's thread waits before it reads.
+  const int bytes = 64 << 20;
+  check("SO_RCVBUFFORCE", ::setsockopt(fd, SOL_SOCKET, SO_RCVBUFFORCE, &bytes, sizeof bytes));
   sockaddr_in any{};
   any.sin_family = AF_INET;
   any.sin_port = htons(kTestPort);
