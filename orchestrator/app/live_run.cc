@@ -24,7 +24,7 @@ constexpr milliseconds kReadyLimit{20'000};
 /// From Start to SimTime 0: every child has read its Start by then.
 constexpr std::int64_t kStartLead_ns = 100'000'000;
 /// Together below the five seconds in which an interrupted run has to be over.
-constexpr milliseconds kStopLimit{1'500};
+constexpr milliseconds kCrewStopLimit{1'500};
 constexpr milliseconds kTerminateLimit{700};
 constexpr milliseconds kKillLimit{500};
 constexpr milliseconds kServiceStopLimit{1'500};
@@ -265,7 +265,7 @@ void LiveRun::stop_all() {
   if (crew_) {
     crew_->stop(reason);
     const auto ended = [&] { return crew_->all_have_ended(); };
-    if (!settle(kStopLimit, ended)) {
+    if (!settle(kCrewStopLimit, ended)) {
       crew_->terminate();
       if (!settle(kTerminateLimit, ended)) {
         crew_->kill();

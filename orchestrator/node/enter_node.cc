@@ -9,12 +9,10 @@
 #include <system_error>
 
 #include "common/posix/check.h"
+#include "orchestrator/node/node.h"
 
 namespace cuscus::node {
 namespace {
-
-constexpr int kNodeNamespaces =
-    CLONE_NEWNET | CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWUTS | CLONE_NEWIPC;
 
 /// Whether the process is in a user namespace other than ours, so that we must enter that as well:
 /// the kernel refuses to enter one's own a second time.

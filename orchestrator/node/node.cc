@@ -19,8 +19,6 @@
 namespace cuscus::node {
 namespace {
 
-constexpr std::uint64_t kNodeNamespaces =
-    CLONE_NEWNET | CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWUTS | CLONE_NEWIPC;
 constexpr std::uint32_t kAllPrograms = 0xffffffff;  // Signal::program, control.proto
 
 posix::ChildProcess start_init(const NodeNetwork& network, const InitProgram& program,

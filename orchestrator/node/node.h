@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sched.h>
+
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -27,6 +29,10 @@ enum class Attachment {
 
 /// The interface that a node's programs use.
 inline constexpr const char* kInterface = "wlan0";
+
+/// What every node has of its own, as flags of clone3() and setns().
+inline constexpr int kNodeNamespaces =
+    CLONE_NEWNET | CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWUTS | CLONE_NEWIPC;
 
 /// One node's place in the network.
 struct NodeNetwork {

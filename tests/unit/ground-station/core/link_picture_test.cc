@@ -6,7 +6,7 @@
 namespace cuscus::gcs {
 namespace {
 
-constexpr SimTime at_ms(std::int64_t ms) { return sim_time(ms * 1'000'000); }
+constexpr SimTime after_ms(std::int64_t ms) { return sim_time(ms * 1'000'000); }
 
 Observation heard(std::vector<Observation::Link> links) {
   Observation observation;
@@ -16,18 +16,18 @@ Observation heard(std::vector<Observation::Link> links) {
 
 TEST_CASE("links are those heard within the last second, one per pair, strongest first") {
   const Observation observation = heard({
-      {.sender = 0, .receiver = 1, .received_dbm = -70.0F, .heard = at_ms(4999)},  // too old
-      {.sender = 1, .receiver = 0, .received_dbm = -80.0F, .heard = at_ms(5000)},
-      {.sender = 2, .receiver = 0, .received_dbm = -60.0F, .heard = at_ms(6001)},  // just read
-      {.sender = 0, .receiver = 2, .received_dbm = -62.0F, .heard = at_ms(5900)},
+      {.sender = 0, .receiver = 1, .received_dbm = -70.0F, .heard = after_ms(4999)},  // too old
+      {.sender = 1, .receiver = 0, .received_dbm = -80.0F, .heard = after_ms(5000)},
+      {.sender = 2, .receiver = 0, .received_dbm = -60.0F, .heard = after_ms(6001)},  // just read
+      {.sender = 0, .receiver = 2, .received_dbm = -62.0F, .heard = after_ms(5900)},
       {.sender = 3,
        .receiver = 2,
        .received_dbm = -std::numeric_limits<float>::infinity(),
-       .heard = at_ms(6000)},
-      {.sender = 1, .receiver = 2, .received_dbm = -65.0F, .heard = at_ms(5500)},
+       .heard = after_ms(6000)},
+      {.sender = 1, .receiver = 2, .received_dbm = -65.0F, .heard = after_ms(5500)},
   });
 
-  const LinkPicture all = link_picture(observation, at_ms(6000), 10);
+  const LinkPicture all = link_picture(observation, after_ms(6000), 10);
 
   CHECK(all.left_out == 0);
   REQUIRE(all.strongest.size() == 3);
@@ -53,12 +53,12 @@ TEST_CASE("pairs beyond the most are left out whole, and what a node hears is no
         links.push_back({.sender = sender,
                          .receiver = receiver,
                          .received_dbm = level_dbm,
-                         .heard = at_ms(1000)});
+                         .heard = after_ms(1000)});
       }
     }
   }
 
-  const LinkPicture one = link_picture(heard(links), at_ms(1000), 1);
+  const LinkPicture one = link_picture(heard(links), after_ms(1000), 1);
 
   REQUIRE(one.strongest.size() == 1);
   CHECK_FALSE(one.strongest[0].one_way);
@@ -68,13 +68,13 @@ TEST_CASE("pairs beyond the most are left out whole, and what a node hears is no
 
 TEST_CASE("a link to a node that never had anything to send is not called one-way") {
   Observation observation = heard({
-      {.sender = 0, .receiver = 1, .received_dbm = -70.0F, .heard = at_ms(1000)},
-      {.sender = 0, .receiver = 2, .received_dbm = -75.0F, .heard = at_ms(1000)},
+      {.sender = 0, .receiver = 1, .received_dbm = -70.0F, .heard = after_ms(1000)},
+      {.sender = 0, .receiver = 2, .received_dbm = -75.0F, .heard = after_ms(1000)},
   });
   observation.tallies.resize(3, shm::RadioTally{});
   observation.tallies[2]->offered = 1;
 
-  const LinkPicture picture = link_picture(observation, at_ms(1000), 10);
+  const LinkPicture picture = link_picture(observation, after_ms(1000), 10);
 
   REQUIRE(picture.strongest.size() == 2);
   CHECK_FALSE(picture.strongest[0].one_way);  // node 1 is silent
@@ -82,7 +82,7 @@ TEST_CASE("a link to a node that never had anything to send is not called one-wa
 }
 
 TEST_CASE("nothing heard is an empty picture") {
-  const LinkPicture picture = link_picture({}, at_ms(1000), 10);
+  const LinkPicture picture = link_picture({}, after_ms(1000), 10);
 
   CHECK(picture.strongest.empty());
   CHECK(picture.left_out == 0);

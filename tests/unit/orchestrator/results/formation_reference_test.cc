@@ -8,7 +8,7 @@ namespace cuscus::orchestrator {
 namespace {
 
 constexpr int kFleet = 10;
-const FormationCircle kCircle{.p_WC_m = {5.0, -3.0, 10.0}, .radius_m = 20.0};
+const FormationCircle kRaisedCircle{.p_WC_m = {5.0, -3.0, 10.0}, .radius_m = 20.0};
 constexpr double kSpeed_mps = 2.0;
 
 SimTime at_s(double seconds) { return sim_time(static_cast<std::int64_t>(seconds * 1e9)); }
@@ -34,14 +34,14 @@ double fly(FormationReference& reference, double speed_mps, double end_s) {
 }
 
 TEST_CASE("a fleet that turns at the mission's speed has no error") {
-  FormationReference reference{kCircle, kSpeed_mps};
+  FormationReference reference{kRaisedCircle, kSpeed_mps};
 
   CHECK(fly(reference, kSpeed_mps, 60.0) == Approx(0.0).margin(1e-6));
   REQUIRE(reference.formed_at());
 }
 
 TEST_CASE("a fleet that keeps its shape but turns too slowly lags behind its vertices") {
-  FormationReference reference{kCircle, kSpeed_mps};
+  FormationReference reference{kRaisedCircle, kSpeed_mps};
 
   const double error_m = fly(reference, 1.9, 60.0);
 
@@ -53,7 +53,7 @@ TEST_CASE("a fleet that keeps its shape but turns too slowly lags behind its ver
 }
 
 TEST_CASE("before the fleet has formed, any phase will do, and its height counts") {
-  FormationReference reference{kCircle, kSpeed_mps};
+  FormationReference reference{kRaisedCircle, kSpeed_mps};
 
   for (const double phase_rad : {0.0, 1.0, -2.0}) {
     for (const double error_m : reference.errors_m(at_s(1.0), ring(phase_rad, 4.0))) {
@@ -64,7 +64,7 @@ TEST_CASE("before the fleet has formed, any phase will do, and its height counts
 }
 
 TEST_CASE("a shape that is lost before it has held long enough does not fix the phase") {
-  FormationReference reference{kCircle, kSpeed_mps};
+  FormationReference reference{kRaisedCircle, kSpeed_mps};
 
   static_cast<void>(reference.errors_m(at_s(0.0), ring(0.0)));
   static_cast<void>(reference.errors_m(at_s(4.0), ring(0.0, 2.0)));

@@ -6,48 +6,50 @@
 namespace cuscus::missions {
 namespace {
 
-const CircleParameters kCircle{.p_WC_centre_m = {5.0, -3.0, 10.0},
-                               .radius_m = 20.0,
-                               .speed_mps = 2.0,
-                               .acceleration_mps2 = 2.0};
+const CircleParameters kOffsetCircle{.p_WC_centre_m = {5.0, -3.0, 10.0},
+                                     .radius_m = 20.0,
+                                     .speed_mps = 2.0,
+                                     .acceleration_mps2 = 2.0};
 
-constexpr SimTime at(int milliseconds) { return SimTime{std::chrono::milliseconds{milliseconds}}; }
+constexpr SimTime at_ms(int milliseconds) {
+  return SimTime{std::chrono::milliseconds{milliseconds}};
+}
 
 /// A mission of slot 1 of 4 that has arrived on its circle, and the instant at which it did.
 struct OnCircle {
-  CircleMission mission{kCircle, 1, 4};
+  CircleMission mission{kOffsetCircle, 1, 4};
   flight::VehicleEstimate estimate;
   int now_ms = 0;
 
   OnCircle() {
     estimate.p_WB_m = mission.entry_point_m();
-    REQUIRE(mission.setpoint(at(now_ms), estimate, {}, 0.0).is_finite());
+    REQUIRE(mission.setpoint(at_ms(now_ms), estimate, {}, 0.0).is_finite());
     REQUIRE(mission.circling());
   }
   flight::Setpoint next(int milliseconds = 5) {
     now_ms += milliseconds;
-    return mission.setpoint(at(now_ms), estimate, {}, 0.25);
+    return mission.setpoint(at_ms(now_ms), estimate, {}, 0.25);
   }
 };
 
 TEST_CASE("a slot enters the circle at its own angle") {
-  const CircleMission mission{kCircle, 1, 4};
+  const CircleMission mission{kOffsetCircle, 1, 4};
 
   CHECK((mission.entry_point_m() - Eigen::Vector3d{5.0, 17.0, 10.0}).norm() < 1e-9);
 }
 
 TEST_CASE("the way to the circle is straight and ends at rest") {
-  CircleMission mission{kCircle, 1, 4};
+  CircleMission mission{kOffsetCircle, 1, 4};
   flight::VehicleEstimate estimate;
   estimate.p_WB_m = {5.0, 7.0, 10.0};
 
-  const auto first = mission.setpoint(at(0), estimate, {}, 0.0);
+  const auto first = mission.setpoint(at_ms(0), estimate, {}, 0.0);
   CHECK((first.p_WB_m - estimate.p_WB_m).norm() < 1e-9);
   for (int ms = 0; ms <= 20'000 && !mission.circling(); ms += 5) {
-    const auto setpoint = mission.setpoint(at(ms), estimate, {}, 0.0);
+    const auto setpoint = mission.setpoint(at_ms(ms), estimate, {}, 0.0);
     CHECK(setpoint.p_WB_m.x() == Approx(5.0));
     CHECK(setpoint.p_WB_m.z() == Approx(10.0));
-    CHECK(setpoint.v_WB_mps.norm() <= kCircle.entry_speed_mps + 1e-9);
+    CHECK(setpoint.v_WB_mps.norm() <= kOffsetCircle.entry_speed_mps + 1e-9);
     estimate.p_WB_m = setpoint.p_WB_m;
     estimate.v_WB_mps = setpoint.v_WB_mps;
   }
@@ -58,12 +60,12 @@ TEST_CASE("the way to the circle is straight and ends at rest") {
 }
 
 TEST_CASE("a mission does not circle before the vehicle has arrived") {
-  CircleMission mission{kCircle, 1, 4};
+  CircleMission mission{kOffsetCircle, 1, 4};
   flight::VehicleEstimate estimate;
   estimate.p_WB_m = {5.0, 7.0, 10.0};
 
   for (int ms = 0; ms <= 60'000; ms += 5) {
-    CHECK(mission.setpoint(at(ms), estimate, {}, 0.0).is_finite());
+    CHECK(mission.setpoint(at_ms(ms), estimate, {}, 0.0).is_finite());
   }
 
   CHECK_FALSE(mission.circling());
