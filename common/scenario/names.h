@@ -14,8 +14,28 @@ template <typename Enum>
 using Named = std::pair<std::string_view, Enum>;
 
 inline constexpr std::array kRadioStandardNames{
-    Named<RadioStandard>{"802.11g", RadioStandard::k80211g}};
-inline constexpr std::array kErrorModelNames{Named<ErrorModel>{"nist", ErrorModel::kNist}};
+    Named<RadioStandard>{"802.11a", RadioStandard::k80211a},
+    Named<RadioStandard>{"802.11b", RadioStandard::k80211b},
+    Named<RadioStandard>{"802.11g", RadioStandard::k80211g},
+    Named<RadioStandard>{"802.11p", RadioStandard::k80211p}};
+inline constexpr std::array kControlAnswerNames{
+    Named<ControlAnswer>{"same-class", ControlAnswer::kSameClass},
+    Named<ControlAnswer>{"any-class", ControlAnswer::kAnyClass}};
+inline constexpr std::array kRateControlNames{
+    Named<RateControl>{"constant", RateControl::kConstant},
+    Named<RateControl>{"ideal", RateControl::kIdeal},
+    Named<RateControl>{"aarf", RateControl::kAarf},
+    Named<RateControl>{"minstrel", RateControl::kMinstrel}};
+inline constexpr std::array kDsssPreambleNames{Named<DsssPreamble>{"long", DsssPreamble::kLong},
+                                               Named<DsssPreamble>{"short", DsssPreamble::kShort}};
+inline constexpr std::array kGroundNames{Named<Ground>{"very-dry", Ground::kVeryDry},
+                                         Named<Ground>{"medium-dry", Ground::kMediumDry},
+                                         Named<Ground>{"wet", Ground::kWet}};
+inline constexpr std::array kPolarisationNames{
+    Named<Polarisation>{"vertical", Polarisation::kVertical},
+    Named<Polarisation>{"horizontal", Polarisation::kHorizontal}};
+inline constexpr std::array kErrorModelNames{Named<ErrorModel>{"nist", ErrorModel::kNist},
+                                             Named<ErrorModel>{"yans", ErrorModel::kYans}};
 inline constexpr std::array kAttachNames{Named<Attach>{"bridge", Attach::kBridge},
                                          Named<Attach>{"direct", Attach::kDirect}};
 inline constexpr std::array kAddressResolutionNames{

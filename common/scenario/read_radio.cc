@@ -8,9 +8,14 @@ namespace {
 
 using nlohmann::json;
 
-// IEEE Std 802.11-2020, clause 18 (ERP-OFDM); netsim has no DSSS rates yet.
-constexpr std::array<std::uint32_t, 8> kRates80211g_kbps{6000,  9000,  12000, 18000,
-                                                         24000, 36000, 48000, 54000};
+// IEEE Std 802.11-2016: clause 17 (OFDM in 20 and 10 MHz), 15 and 16 (DSSS, CCK), 18 (all).
+constexpr std::array<std::uint32_t, 8> kOfdm_kbps{6000,  9000,  12000, 18000,
+                                                  24000, 36000, 48000, 54000};
+constexpr std::array<std::uint32_t, 8> kHalfClockedOfdm_kbps{3000,  4500,  6000,  9000,
+                                                             12000, 18000, 24000, 27000};
+constexpr std::array<std::uint32_t, 4> kDsss_kbps{1000, 2000, 5500, 11000};
+constexpr std::array<std::uint32_t, 12> kErp_kbps{1000,  2000,  5500,  6000,  9000,  11000,
+                                                  12000, 18000, 24000, 36000, 48000, 54000};
 
 std::string rate_list(RadioStandard standard) {
   std::vector<std::string> names;
@@ -59,7 +64,7 @@ std::vector<std::uint32_t> read_basic_rates(ObjectReader& reader,
     return fallback;
   }
   std::vector<std::uint32_t> rates;
-  for (std::size_t i = 0; i < value->size() && i < 2 * kRates80211g_kbps.size(); ++i) {
+  for (std::size_t i = 0; i < value->size() && i < 2 * kErp_kbps.size(); ++i) {
     const std::string path = reader.path_of(key) + '/' + std::to_string(i);
     const std::size_t problem_free = rates.size();
     rates.push_back(read_rate(value->at(i), path, 0, standard, reader.problems()));
@@ -74,7 +79,7 @@ std::vector<std::uint32_t> read_basic_rates(ObjectReader& reader,
 
 Propagation read_propagation(const json* value, const std::string& path, Problems& problems) {
   ObjectReader reader{value, path, problems};
-  switch (reader.choice_index("model", {"friis", "log-distance", "paper-eq1"})) {
+  switch (reader.choice_index("model", {"friis", "log-distance", "paper-eq1", "two-ray"})) {
     case 1: {
       LogDistancePropagation model;
       model.exponent = reader.number("exponent", model.exponent, {0.0, 10.0});
@@ -94,23 +99,94 @@ Propagation read_propagation(const json* value, const std::string& path, Problem
       reader.finish();
       return model;
     }
+    case 3: {
+      TwoRayPropagation model;
+      model.ground = reader.choice("ground", model.ground, kGroundNames);
+      model.polarisation = reader.choice("polarisation", model.polarisation, kPolarisationNames);
+      model.roughness_m = reader.quantity("roughness", model.roughness_m, {kLength, "0 m", "10 m"});
+      reader.finish();
+      return model;
+    }
     default:
       if (reader.has("model") || value == nullptr || !value->is_object()) {
         reader.finish();
       } else {
-        reader.missing("model", "friis, log-distance, paper-eq1");
+        reader.missing("model", "friis, log-distance, paper-eq1, two-ray");
       }
       return FriisPropagation{};
   }
 }
 
+/// Whether `value` is the text "none"; any other text is a problem, and counts as none.
+bool is_none(const json* value, const std::string& path, const std::string& otherwise,
+             Problems& problems) {
+  if (value == nullptr || !value->is_string()) {
+    return false;
+  }
+  if (*value != "none") {
+    problems.add(path,
+                 shown(*value) + " is not known; allowed: none, or an object with " + otherwise);
+  }
+  return true;
+}
+
+std::optional<Shadowing> read_shadowing(const json* value, const std::string& path,
+                                        Problems& problems) {
+  if (value == nullptr || is_none(value, path, "deviation and decorrelation", problems)) {
+    return std::nullopt;
+  }
+  Shadowing shadowing;
+  ObjectReader reader{value, path, problems};
+  shadowing.deviation_dB =
+      reader.quantity("deviation", shadowing.deviation_dB, {kPowerRatio, "0.01 dB", "30 dB"});
+  shadowing.decorrelation_m =
+      reader.quantity("decorrelation", shadowing.decorrelation_m, {kLength, "0.1 m", "10 km"});
+  reader.finish();
+  return shadowing;
+}
+
+Fading read_fading(const json* value, const std::string& path, Problems& problems) {
+  if (value == nullptr || is_none(value, path, "model", problems)) {
+    return NoFading{};
+  }
+  ObjectReader reader{value, path, problems};
+  const QuantityRange k_range{kPowerRatio, "-30 dB", "50 dB"};
+  const QuantityRange doppler_range{kFrequency, "0 Hz", "1 kHz"};
+  RiceFading rice;
+  switch (reader.choice_index("model", {"rice", "rayleigh", "nakagami"})) {
+    case 0:
+      rice.k_factor = Decibel{reader.quantity("k_factor", rice.k_factor->value, k_range)};
+      rice.k_factor_overhead.value =
+          reader.quantity("k_factor_overhead", rice.k_factor_overhead.value, k_range);
+      rice.residual_doppler_Hz =
+          reader.quantity("residual_doppler", rice.residual_doppler_Hz, doppler_range);
+      reader.finish();
+      return rice;
+    case 1:
+      rice.k_factor.reset();
+      rice.residual_doppler_Hz =
+          reader.quantity("residual_doppler", rice.residual_doppler_Hz, doppler_range);
+      reader.finish();
+      return rice;
+    case 2: {
+      NakagamiFading nakagami;
+      nakagami.m = reader.number("m", nakagami.m, {0.5, 1000.0});
+      reader.finish();
+      return nakagami;
+    }
+    default:
+      if (!reader.has("model") && value->is_object()) {
+        reader.missing("model", "rice, rayleigh, nakagami");
+      } else {
+        reader.finish();
+      }
+      return NoFading{};
+  }
+}
+
 std::optional<PreambleDetection> read_detection(const json* value, const std::string& path,
                                                 Problems& problems) {
-  if (value != nullptr && value->is_string()) {
-    if (*value != "none") {
-      problems.add(path, shown(*value) + " is not known; allowed: none, or an object with " +
-                             "minimum_power and minimum_sinr");
-    }
+  if (is_none(value, path, "minimum_power and minimum_sinr", problems)) {
     return std::nullopt;
   }
   PreambleDetection detection;
@@ -121,6 +197,36 @@ std::optional<PreambleDetection> read_detection(const json* value, const std::st
                                                  {kPowerRatio, "-30 dB", "60 dB"});
   reader.finish();
   return detection;
+}
+
+std::optional<Capture> read_capture(const json* value, const std::string& path,
+                                    Problems& problems) {
+  if (value == nullptr || is_none(value, path, "preamble and frame", problems)) {
+    return std::nullopt;
+  }
+  Capture capture;
+  ObjectReader reader{value, path, problems};
+  const QuantityRange range{kPowerRatio, "0 dB", "60 dB"};
+  capture.preamble.value = reader.quantity("preamble", capture.preamble.value, range);
+  const json* frame = reader.child("frame");
+  if (frame != nullptr && *frame != "none") {
+    capture.frame = Decibel{read_quantity(*frame, reader.path_of("frame"), 10.0, range, problems)};
+  }
+  reader.finish();
+  return capture;
+}
+
+std::optional<std::uint32_t> read_rts_threshold(ObjectReader& reader) {
+  const std::string key = "rts_threshold";
+  const json* value = reader.child(key);
+  if (value == nullptr || *value == "none") {
+    return std::nullopt;
+  }
+  if (value->is_string()) {
+    reader.problem(key, shown(*value) + "; allowed: none, or a whole number of bytes 0 ... 65535");
+    return std::nullopt;
+  }
+  return reader.integer<std::uint32_t>(key, 0, {0, 65'535});
 }
 
 void read_queue(const json* value, const std::string& path, Radio& radio, Problems& problems) {
@@ -142,19 +248,52 @@ void read_cca(const json* value, const std::string& path, Radio& radio, Problems
 
 std::span<const std::uint32_t> rates_kbps(RadioStandard standard) {
   switch (standard) {
+    case RadioStandard::k80211a:
+      return kOfdm_kbps;
+    case RadioStandard::k80211b:
+      return kDsss_kbps;
     case RadioStandard::k80211g:
-      return kRates80211g_kbps;
+      return kErp_kbps;
+    case RadioStandard::k80211p:
+      return kHalfClockedOfdm_kbps;
   }
   return {};
 }
 
-Radio read_radio(const json* value, Problems& problems) {
+Radio default_radio(RadioStandard standard) {
   Radio radio;
+  radio.standard = standard;
+  switch (standard) {
+    case RadioStandard::k80211a:
+      radio.channel_frequency_hz = 5.18e9;  // channel 36
+      radio.slot = std::chrono::microseconds{9};
+      break;
+    case RadioStandard::k80211b:
+      radio.data_rate_kbps = 1000;
+      radio.group_rate_kbps = 1000;
+      radio.basic_rates_kbps = {1000, 2000};
+      break;
+    case RadioStandard::k80211g:
+      break;
+    case RadioStandard::k80211p:
+      radio.basic_rates_kbps = {3000, 6000, 12000};
+      radio.channel_frequency_hz = 5.89e9;  // channel 178
+      radio.slot = std::chrono::microseconds{13};
+      break;
+  }
+  return radio;
+}
+
+Radio read_radio(const json* value, Problems& problems) {
   ObjectReader reader{value, "/radio", problems};
-  radio.standard = reader.choice("standard", radio.standard, kRadioStandardNames);
+  Radio radio =
+      default_radio(reader.choice("standard", RadioStandard::k80211g, kRadioStandardNames));
   radio.data_rate_kbps = read_rate(reader, "data_rate", radio.data_rate_kbps, radio.standard);
   radio.group_rate_kbps = read_rate(reader, "group_rate", radio.group_rate_kbps, radio.standard);
+  radio.rate_control = reader.choice("rate_control", radio.rate_control, kRateControlNames);
   radio.basic_rates_kbps = read_basic_rates(reader, radio.basic_rates_kbps, radio.standard);
+  radio.control_answer = reader.choice("control_answer", radio.control_answer, kControlAnswerNames);
+  radio.dsss_preamble = reader.choice("preamble", radio.dsss_preamble, kDsssPreambleNames);
   radio.channel_frequency_hz = reader.quantity("channel_frequency", radio.channel_frequency_hz,
                                                {kFrequency, "100 MHz", "10 GHz"});
   radio.tx_power.value =
@@ -165,13 +304,20 @@ Radio read_radio(const json* value, Problems& problems) {
       reader.quantity("noise_figure", radio.noise_figure.value, {kPowerRatio, "0 dB", "30 dB"});
   radio.slot = reader.duration("slot", radio.slot, "9 us", "1 ms");
   radio.retry_limit = reader.integer<std::uint32_t>("retry_limit", radio.retry_limit, {1, 255});
+  radio.long_retry_limit =
+      reader.integer<std::uint32_t>("long_retry_limit", radio.long_retry_limit, {1, 255});
+  radio.rts_threshold_bytes = read_rts_threshold(reader);
   read_queue(reader.child("queue"), reader.path_of("queue"), radio, problems);
   radio.error_model = reader.choice("error_model", radio.error_model, kErrorModelNames);
   read_cca(reader.child("cca"), reader.path_of("cca"), radio, problems);
   radio.preamble_detection = read_detection(reader.child("preamble_detection"),
                                             reader.path_of("preamble_detection"), problems);
+  radio.capture = read_capture(reader.child("capture"), reader.path_of("capture"), problems);
   radio.propagation =
       read_propagation(reader.child("propagation"), reader.path_of("propagation"), problems);
+  radio.shadowing =
+      read_shadowing(reader.child("shadowing"), reader.path_of("shadowing"), problems);
+  radio.fading = read_fading(reader.child("fading"), reader.path_of("fading"), problems);
   reader.finish();
   return radio;
 }

@@ -42,27 +42,74 @@ struct PaperPropagation {
   double chi_dB2{0.0};  ///< Variance of Psi.
 };
 
-using Propagation = std::variant<FriisPropagation, LogDistancePropagation, PaperPropagation>;
+enum class Ground { kVeryDry, kMediumDry, kWet };
+enum class Polarisation { kVertical, kHorizontal };
 
-enum class RadioStandard { k80211g };
-enum class ErrorModel { kNist };
+/// A direct ray and one reflected by the ground.
+struct TwoRayPropagation {
+  Ground ground{Ground::kMediumDry};
+  Polarisation polarisation{Polarisation::kVertical};
+  double roughness_m{0.0};
+};
+
+using Propagation =
+    std::variant<FriisPropagation, LogDistancePropagation, PaperPropagation, TwoRayPropagation>;
+
+struct Shadowing {
+  double deviation_dB{4.0};
+  double decorrelation_m{20.0};
+};
+
+/// Rice; Rayleigh where there is no direct wave.
+struct RiceFading {
+  std::optional<Decibel> k_factor{Decibel{5.0}};  ///< At the horizon; nothing: Rayleigh.
+  Decibel k_factor_overhead{15.0};
+  double residual_doppler_Hz{1.0};
+};
+
+struct NakagamiFading {
+  double m{1.0};
+};
+
+struct NoFading {};
+
+using Fading = std::variant<NoFading, RiceFading, NakagamiFading>;
+
+enum class RadioStandard { k80211a, k80211b, k80211g, k80211p };
+/// From which basic rates ACK and CTS are taken.
+enum class ControlAnswer { kSameClass, kAnyClass };
+enum class RateControl { kConstant, kIdeal, kAarf, kMinstrel };
+enum class DsssPreamble { kLong, kShort };
+enum class ErrorModel { kNist, kYans };
 
 struct PreambleDetection {
   DecibelMilliwatt minimum_power{-82.0};
   Decibel minimum_sinr{4.0};
 };
 
+/// SINR from which a later frame takes the receiver from the one that it is locked on.
+struct Capture {
+  Decibel preamble{5.0};         ///< During that one's preamble.
+  std::optional<Decibel> frame;  ///< After it; nothing: never.
+};
+
 struct Radio {
   RadioStandard standard{RadioStandard::k80211g};
   std::uint32_t data_rate_kbps{6000};   ///< Individually addressed frames.
   std::uint32_t group_rate_kbps{6000};  ///< Broadcast and multicast frames.
+  RateControl rate_control{RateControl::kConstant};
   std::vector<std::uint32_t> basic_rates_kbps{6000, 12000, 24000};
+  ControlAnswer control_answer{ControlAnswer::kSameClass};
+  DsssPreamble dsss_preamble{DsssPreamble::kLong};  ///< Of DSSS and CCK rates.
   double channel_frequency_hz{2.437e9};
   DecibelMilliwatt tx_power{16.0};
   Decibel antenna_gain{0.0};
   Decibel noise_figure{7.0};
   Duration slot{std::chrono::microseconds{20}};
-  std::uint32_t retry_limit{7};  ///< Attempts per frame.
+  std::uint32_t retry_limit{7};       ///< Attempts of RTS, and of data without.
+  std::uint32_t long_retry_limit{7};  ///< Attempts of data after an RTS.
+  /// PSDUs above this many bytes are sent after RTS and CTS; nothing: none is.
+  std::optional<std::uint32_t> rts_threshold_bytes;
   std::uint32_t queue_frames{500};
   Duration queue_lifetime{std::chrono::milliseconds{500}};
   ErrorModel error_model{ErrorModel::kNist};
@@ -70,7 +117,10 @@ struct Radio {
   DecibelMilliwatt cca_energy{-62.0};
   /// Nothing: every frame is attempted, however weak.
   std::optional<PreambleDetection> preamble_detection{PreambleDetection{}};
+  std::optional<Capture> capture;
   Propagation propagation{FriisPropagation{}};
+  std::optional<Shadowing> shadowing;
+  Fading fading{NoFading{}};
 };
 
 enum class Attach { kBridge, kDirect };
@@ -255,6 +305,9 @@ struct Scenario {
 
 /// Rates of `standard` [kb/s], rising.
 [[nodiscard]] std::span<const std::uint32_t> rates_kbps(RadioStandard standard);
+
+/// What a radio of that standard has where a scenario says nothing else.
+[[nodiscard]] Radio default_radio(RadioStandard standard);
 
 /// The JSON schema of scenarios (draft-07), as it is in scenarios/scenario.schema.json.
 [[nodiscard]] std::string_view scenario_schema();

@@ -44,6 +44,35 @@ Json json_of(const PaperPropagation& model) {
           {"chi", format_quantity(model.chi_dB2, kVariance)}};
 }
 
+Json json_of(const TwoRayPropagation& model) {
+  return {{"model", "two-ray"},
+          {"ground", name_of(kGroundNames, model.ground)},
+          {"polarisation", name_of(kPolarisationNames, model.polarisation)},
+          {"roughness", format_quantity(model.roughness_m, kLength)}};
+}
+
+Json json_of(const NoFading& /*fading*/) { return "none"; }
+
+Json json_of(const RiceFading& rice) {
+  Json fading{{"model", rice.k_factor ? "rice" : "rayleigh"},
+              {"residual_doppler", format_quantity(rice.residual_doppler_Hz, kFrequency)}};
+  if (rice.k_factor) {
+    fading["k_factor"] = format_quantity(rice.k_factor->value, kPowerRatio);
+    fading["k_factor_overhead"] = format_quantity(rice.k_factor_overhead.value, kPowerRatio);
+  }
+  return fading;
+}
+
+Json json_of(const NakagamiFading& nakagami) { return {{"model", "nakagami"}, {"m", nakagami.m}}; }
+
+Json json_of(const std::optional<Shadowing>& shadowing) {
+  if (!shadowing) {
+    return "none";
+  }
+  return {{"deviation", format_quantity(shadowing->deviation_dB, kPowerRatio)},
+          {"decorrelation", format_quantity(shadowing->decorrelation_m, kLength)}};
+}
+
 Json json_of(const Radio& radio) {
   Json basic_rates = Json::array();
   for (const std::uint32_t rate_kbps : radio.basic_rates_kbps) {
@@ -55,24 +84,39 @@ Json json_of(const Radio& radio) {
     detection = {{"minimum_power", format_quantity(power.value, kPower)},
                  {"minimum_sinr", format_quantity(sinr.value, kPowerRatio)}};
   }
+  Json capture = "none";
+  if (radio.capture) {
+    const auto& [preamble, frame] = *radio.capture;
+    capture = {{"preamble", format_quantity(preamble.value, kPowerRatio)},
+               {"frame", frame ? Json(format_quantity(frame->value, kPowerRatio)) : Json("none")}};
+  }
   return {{"standard", name_of(kRadioStandardNames, radio.standard)},
           {"data_rate", bit_rate_text(radio.data_rate_kbps)},
           {"group_rate", bit_rate_text(radio.group_rate_kbps)},
+          {"rate_control", name_of(kRateControlNames, radio.rate_control)},
           {"basic_rates", basic_rates},
+          {"control_answer", name_of(kControlAnswerNames, radio.control_answer)},
+          {"preamble", name_of(kDsssPreambleNames, radio.dsss_preamble)},
           {"channel_frequency", format_quantity(radio.channel_frequency_hz, kFrequency)},
           {"tx_power", format_quantity(radio.tx_power.value, kPower)},
           {"antenna_gain", format_quantity(radio.antenna_gain.value, kPowerRatio)},
           {"noise_figure", format_quantity(radio.noise_figure.value, kPowerRatio)},
           {"slot", text(radio.slot)},
           {"retry_limit", radio.retry_limit},
+          {"long_retry_limit", radio.long_retry_limit},
+          {"rts_threshold",
+           radio.rts_threshold_bytes ? Json(*radio.rts_threshold_bytes) : Json("none")},
           {"queue", {{"frames", radio.queue_frames}, {"lifetime", text(radio.queue_lifetime)}}},
           {"error_model", name_of(kErrorModelNames, radio.error_model)},
           {"cca",
            {{"preamble", format_quantity(radio.cca_preamble.value, kPower)},
             {"energy", format_quantity(radio.cca_energy.value, kPower)}}},
           {"preamble_detection", detection},
+          {"capture", capture},
           {"propagation",
-           std::visit([](const auto& model) { return json_of(model); }, radio.propagation)}};
+           std::visit([](const auto& model) { return json_of(model); }, radio.propagation)},
+          {"shadowing", json_of(radio.shadowing)},
+          {"fading", std::visit([](const auto& model) { return json_of(model); }, radio.fading)}};
 }
 
 Json json_of(const World& world) {

@@ -13,6 +13,7 @@ namespace {
 // Purposes of random streams (see random::stream_id).
 constexpr std::uint16_t kBackoffStream = 0x1002;
 constexpr std::uint16_t kReceptionStream = 0x1003;
+constexpr std::uint16_t kRateStream = 0x1008;
 
 void require(bool holds, const std::string& rule) {
   if (!holds) {
@@ -22,19 +23,30 @@ void require(bool holds, const std::string& rule) {
 
 MacParameters mac_parameters(const AirParameters& p, const Standard& standard) {
   require(p.slot >= Duration::zero(), "the slot must not be negative");
-  require(p.retry_limit >= 1, "the retry limit counts attempts and must be at least 1");
+  require(p.retry_limit >= 1 && p.long_retry_limit >= 1,
+          "the retry limits count attempts and must be at least 1");
   require(p.queue_frames >= 1, "the queue must hold at least 1 frame");
   require(p.queue_lifetime > Duration::zero(), "the queue lifetime must be above 0");
   for (const std::uint32_t rate : p.basic_rates_kbps) {
     static_cast<void>(standard.mode(rate));  // throws on a rate that does not exist
   }
   const Duration slot = p.slot == Duration::zero() ? standard.slot : p.slot;
-  auto mac =
-      MacParameters::from(standard, slot, p.data_rate_kbps, p.group_rate_kbps, p.basic_rates_kbps);
-  mac.retry_limit = p.retry_limit;
+  auto mac = MacParameters::from(standard, slot, p.data_rate_kbps, p.group_rate_kbps,
+                                 p.basic_rates_kbps, p.control_answer);
+  mac.short_retry_limit = p.retry_limit;
+  mac.long_retry_limit = p.long_retry_limit;
+  mac.rts_threshold_bytes = p.rts_threshold_bytes;
   mac.queue_frames = p.queue_frames;
   mac.queue_lifetime = p.queue_lifetime;
   return mac;
+}
+
+Duration shortest_airtime(const Standard& standard) {
+  Duration shortest = Duration::max();
+  for (const Mode& mode : standard.modes) {
+    shortest = std::min(shortest, airtime(mode, kAckBytes));
+  }
+  return shortest;
 }
 
 ReceiverParameters receiver_parameters(const AirParameters& p, const Standard& standard) {
@@ -44,36 +56,43 @@ ReceiverParameters receiver_parameters(const AirParameters& p, const Standard& s
           .cca_energy = p.cca_energy,
           .sensitivity = p.sensitivity,
           .detection_minimum = p.detection_minimum,
-          .detection_minimum_sinr = p.detection_minimum_sinr};
+          .detection_minimum_sinr = p.detection_minimum_sinr,
+          .capture_in_preamble = p.capture_in_preamble,
+          .capture_in_frame = p.capture_in_frame};
 }
 
 }  // namespace
 
 Air::Station::Station(const ReceiverModel& model, std::uint32_t node, const MacParameters& mac,
-                      MacHost& host, std::uint64_t seed)
+                      MacHost& host, std::unique_ptr<RateControl> rate_control, std::uint64_t seed)
     : receiver{model, random::CounterStream{seed, random::stream_id(kReceptionStream, node)}},
-      dcf{node, mac, host, random::CounterStream{seed, random::stream_id(kBackoffStream, node)}} {}
+      rates{std::move(rate_control)},
+      dcf{node, mac, host, *rates,
+          random::CounterStream{seed, random::stream_id(kBackoffStream, node)}} {}
 
 Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener)
     : seed_{parameters.seed},
-      standard_{&standard_of(parameters.standard)},
+      standard_{&standard_of(parameters.standard, parameters.dsss_preamble)},
       mac_{mac_parameters(parameters, *standard_)},
       errors_{make_error_model(parameters.error_model)},
       receiver_model_{receiver_parameters(parameters, *standard_), *errors_},
       channel_{parameters.channel},
       floor_mw_{receiver_model_.noise_mw() / parameters.arrival_floor_below_noise.ratio()},
-      shortest_airtime_{airtime(standard_->modes.back(), kAckBytes)},
+      shortest_airtime_{shortest_airtime(*standard_)},
       radios_{parameters.nodes},
       positions_{&positions},
       listener_{&listener} {
   require(!radios_.empty() && radios_.size() <= 65'535, "there must be 1 to 65535 nodes");
   require(positions.positions(SimTime{}).size() >= radios_.size(), "a node has no position");
+  RateSetting rates = rate_setting(*standard_, *mac_.data_mode, *errors_);
   stations_.reserve(radios_.size());
   for (std::uint32_t node = 0; node < radios_.size(); ++node) {
     require(std::isfinite(radios_[node].tx_power.value) &&
                 std::isfinite(radios_[node].antenna_gain.value),
             "powers and gains must be finite");
-    stations_.emplace_back(receiver_model_, node, mac_, static_cast<MacHost&>(*this), seed_);
+    rates.draws = {seed_, random::stream_id(kRateStream, node)};
+    stations_.emplace_back(receiver_model_, node, mac_, static_cast<MacHost&>(*this),
+                           make_rate_control(parameters.rate_control, rates), seed_);
   }
 }
 
@@ -173,7 +192,8 @@ bool Air::run_next(SimTime limit) {
 
 void Air::set_timer(std::uint32_t node, MacTimer timer, SimTime time) {
   cancel_timer(node, timer);
-  const EventRank rank = timer == MacTimer::kAckTimeout ? EventRank::kTimeout : EventRank::kAccess;
+  const bool access = timer == MacTimer::kAccess || timer == MacTimer::kResponse;
+  const EventRank rank = access ? EventRank::kAccess : EventRank::kTimeout;
   stations_[node].timers[static_cast<std::size_t>(timer)] = queue_.schedule(
       time, event_rank(rank, node),
       {.kind = Step::Kind::kTimer, .detail = static_cast<std::uint8_t>(timer), .index = node});

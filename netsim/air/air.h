@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,10 +53,16 @@ struct AirParameters {
   std::string standard{"802.11g"};
   std::uint32_t data_rate_kbps{6'000};
   std::uint32_t group_rate_kbps{6'000};
+  std::string rate_control{"constant"};  ///< Of individually addressed frames.
   std::vector<std::uint32_t> basic_rates_kbps{6'000, 12'000, 24'000};
+  ControlAnswerRule control_answer{ControlAnswerRule::kSameClass};
+  DsssPreamble dsss_preamble{DsssPreamble::kLong};
   Decibel noise_figure{7.0};
-  Duration slot{0};  ///< 0: the standard's.
-  std::uint32_t retry_limit{7};
+  Duration slot{0};                   ///< 0: the standard's.
+  std::uint32_t retry_limit{7};       ///< Attempts of RTS, and of data without.
+  std::uint32_t long_retry_limit{7};  ///< Attempts of data after an RTS.
+  /// PSDUs above this many bytes are sent after RTS and CTS.
+  std::uint32_t rts_threshold_bytes{std::numeric_limits<std::uint32_t>::max()};
   std::uint32_t queue_frames{500};
   Duration queue_lifetime{std::chrono::milliseconds{500}};
   std::string error_model{"nist"};
@@ -64,6 +71,8 @@ struct AirParameters {
   DecibelMilliwatt sensitivity{-101.0};
   DecibelMilliwatt detection_minimum{-82.0};
   Decibel detection_minimum_sinr{4.0};
+  Decibel capture_in_preamble{std::numeric_limits<double>::infinity()};  ///< +inf: never.
+  Decibel capture_in_frame{std::numeric_limits<double>::infinity()};     ///< +inf: never.
   /// Transmissions that arrive with less than noise less this are left out at a receiver: they are
   /// not interference either. One adds less than 1 % to the noise.
   Decibel arrival_floor_below_noise{20.0};
@@ -153,8 +162,9 @@ class Air final : private MacHost {
   };
   struct Station {
     Station(const ReceiverModel& model, std::uint32_t node, const MacParameters& mac, MacHost& host,
-            std::uint64_t seed);
+            std::unique_ptr<RateControl> rate_control, std::uint64_t seed);
     Receiver receiver;
+    std::unique_ptr<RateControl> rates;
     Dcf dcf;
     Tally tally{};
     bool busy{false};

@@ -10,6 +10,11 @@
 namespace cuscus::netsim {
 namespace {
 
+/// Whether a frame on the air stands for one that waits at its sender.
+bool belongs_to_pending(const MacFrame& frame) {
+  return frame.kind == MacFrame::Kind::kData || frame.kind == MacFrame::Kind::kRts;
+}
+
 constexpr std::uint64_t rank_of_finish(std::uint32_t transmission) {
   // After the senders' own ends at that instant, of which there are fewer than 2^16.
   return event_rank(EventRank::kFinish, 0x8000'0000U | transmission);
@@ -44,7 +49,8 @@ void Air::update_reach(std::uint32_t sender) {
   station.reach_version = positions_->version();
   const AirNode& radio = radios_[sender];
   for (Reach& reach : station.reach) {
-    const Decibel loss = channel_.basic_loss(positions[sender], positions[reach.receiver]);
+    const Decibel loss = channel_.static_loss(
+        Link::between(sender, positions[sender], reach.receiver, positions[reach.receiver]));
     const DecibelMilliwatt received =
         radio.tx_power + radio.antenna_gain + radios_[reach.receiver].antenna_gain - loss;
     const double distance_m = (positions[sender] - positions[reach.receiver]).norm();
@@ -69,12 +75,18 @@ void Air::spread(Transmission& transmission, std::uint32_t sender) {
   Station& station = stations_[sender];
   const std::uint64_t number = station.transmissions++;
   const bool data = transmission.frame.kind == MacFrame::Kind::kData;
+  const auto* const positions =
+      channel_.varies_per_frame() ? &positions_->positions(now_) : nullptr;
   transmission.arrivals.clear();
   for (const Reach& reach : station.reach) {
     double power_mw = reach.received_mw;
     if (channel_.varies_per_frame()) {
-      const Decibel variation = channel_.frame_loss(
-          {.sender = sender, .receiver = reach.receiver, .transmission = number});
+      const Decibel variation =
+          channel_.frame_loss({.link = Link::between(sender, (*positions)[sender], reach.receiver,
+                                                     (*positions)[reach.receiver]),
+                               .from_low = sender < reach.receiver,
+                               .transmission = number,
+                               .time = now_});
       power_mw = (DecibelMilliwatt{reach.received_dbm} - variation).milliwatts();
     }
     if (power_mw >= floor_mw_) {
@@ -82,7 +94,8 @@ void Air::spread(Transmission& transmission, std::uint32_t sender) {
           {.receiver = reach.receiver, .delay = reach.delay, .power_mw = power_mw});
     } else if (data && transmission.frame.receiver == kGroup) {
       stations_[reach.receiver].tally.count(LossCause::kBelowDetection);
-    } else if (data && meant_for(transmission.frame, reach.receiver)) {
+    } else if (belongs_to_pending(transmission.frame) &&
+               meant_for(transmission.frame, reach.receiver)) {
       pending_[transmission.frame.frame].destination_cause = LossCause::kBelowDetection;
     }
   }
@@ -109,12 +122,12 @@ void Air::transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
   Station& station = stations_[node];
   station.receiver.start_transmission();
   update_medium(node);
+  if (belongs_to_pending(frame)) {
+    ++pending_[frame.frame].references;
+  }
   if (frame.kind == MacFrame::Kind::kData) {
     ++station.tally.transmissions;
     Pending& pending = pending_[frame.frame];
-    if (pending.references > 0) {
-      ++pending.references;
-    }
     station.tally.retries += pending.report.attempts > 0 ? 1 : 0;
     ++pending.report.attempts;
   }
@@ -125,7 +138,7 @@ void Air::transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
     // Nobody hears it; the frame is over when the sender says so.
     transmission.active = false;
     free_transmissions_.push_back(index);
-    if (frame.kind == MacFrame::Kind::kData) {
+    if (belongs_to_pending(frame)) {
       --pending_[frame.frame].references;
     }
     return;
@@ -224,7 +237,7 @@ void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
   if (end != Receiver::End::kDecoded) {
     if (data && frame.receiver == kGroup) {
       station.tally.count(arrival.cause);
-    } else if (data && meant_for(frame, receiver)) {
+    } else if (belongs_to_pending(frame) && meant_for(frame, receiver)) {
       pending_[frame.frame].destination_cause = arrival.cause;
     }
     if (end == Receiver::End::kFailed) {
@@ -233,6 +246,7 @@ void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
     update_medium(receiver);
     return;
   }
+  station.rates->heard(frame.sender, power_mw / receiver_model_.noise_mw());
   const bool deliver = station.dcf.received(now_, frame, *transmission.timing.mode);
   update_medium(receiver);
   if (deliver) {
@@ -253,7 +267,7 @@ void Air::end_of_sweeps(std::uint32_t index) {
   Transmission& transmission = transmissions_[index];
   transmission.active = false;
   free_transmissions_.push_back(index);
-  if (transmission.frame.kind == MacFrame::Kind::kData) {
+  if (belongs_to_pending(transmission.frame)) {
     release(transmission.frame.frame);
   }
 }

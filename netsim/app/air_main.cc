@@ -30,7 +30,9 @@ struct Options {
   double duration_s{5.0};
   double period_ms{50.0};
   double jitter_ms{0.0};
-  double slot_us{20.0};
+  std::vector<double> basic_rates_mbps{6.0, 12.0, 24.0};
+  bool short_preamble{false};
+  double slot_us{0.0};
   double carrier_ghz{2.412};
   double detection_dbm{-82.0};
   double detection_sinr_db{4.0};
@@ -47,12 +49,13 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--traffic", o.traffic, "What is sent")
       ->check(CLI::IsMember({"beacons", "saturated", "flow", "ping"}))
       ->capture_default_str();
+  app.add_flag("--to-sink", o.run.traffic.to_sink, "All to one further node");
   app.add_flag("--unicast", o.unicast, "To one neighbour each instead of to all");
   app.add_option("-n,--nodes", o.run.senders, "Sending nodes")
       ->check(CLI::Range(1, 5000))
       ->capture_default_str();
   app.add_option("--layout", o.layout, "Where the nodes are")
-      ->check(CLI::IsMember({"equal", "circle", "line"}))
+      ->check(CLI::IsMember({"equal", "circle", "line", "hidden"}))
       ->capture_default_str();
   app.add_option("--equal-power", o.run.layout.equal_power.value, "Layout 'equal' [dBm]")
       ->capture_default_str();
@@ -80,7 +83,22 @@ void add_options(CLI::App& app, Options& o) {
       ->capture_default_str();
   app.add_option("--group-rate", o.group_rate_mbps, "Of group frames [Mb/s]")
       ->capture_default_str();
-  app.add_option("--slot", o.slot_us, "[us]")->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--standard", o.run.air.standard, "Physical layer")
+      ->check(CLI::IsMember({"802.11a", "802.11b", "802.11g", "802.11p"}))
+      ->capture_default_str();
+  app.add_option("--rate-control", o.run.air.rate_control, "Of individually addressed frames")
+      ->check(CLI::IsMember({"constant", "ideal", "aarf", "minstrel"}))
+      ->capture_default_str();
+  app.add_option("--basic-rates", o.basic_rates_mbps, "[Mb/s]")->capture_default_str();
+  app.add_flag("--short-preamble", o.short_preamble, "Of DSSS and CCK rates");
+  app.add_option("--rts-threshold", o.run.air.rts_threshold_bytes,
+                 "PSDUs above this many bytes are sent after RTS and CTS");
+  app.add_option("--error-model", o.run.air.error_model, "Bit errors as a function of SINR")
+      ->check(CLI::IsMember({"nist", "yans"}))
+      ->capture_default_str();
+  app.add_option("--slot", o.slot_us, "[us]; 0: the standard's")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--detection-power", o.detection_dbm, "Preamble detection, least power [dBm]")
       ->capture_default_str();
   app.add_option("--detection-sinr", o.detection_sinr_db, "Preamble detection, least SINR [dB]")
@@ -107,7 +125,8 @@ void apply(Options& o) {
       {"ping", Traffic::Kind::kPing}};
   static const std::map<std::string, Layout::Kind> kLayouts{{"equal", Layout::Kind::kEqualPower},
                                                             {"circle", Layout::Kind::kCircle},
-                                                            {"line", Layout::Kind::kLine}};
+                                                            {"line", Layout::Kind::kLine},
+                                                            {"hidden", Layout::Kind::kHidden}};
   AirParameters& air = o.run.air;
   o.run.traffic.kind = kTraffic.at(o.traffic);
   o.run.traffic.group = !o.unicast;
@@ -117,6 +136,11 @@ void apply(Options& o) {
   o.run.duration = nanoseconds(o.duration_s);
   air.data_rate_kbps = kbps(o.rate_mbps);
   air.group_rate_kbps = kbps(o.group_rate_mbps);
+  air.basic_rates_kbps.clear();
+  for (const double rate_mbps : o.basic_rates_mbps) {
+    air.basic_rates_kbps.push_back(kbps(rate_mbps));
+  }
+  air.dsss_preamble = o.short_preamble ? DsssPreamble::kShort : DsssPreamble::kLong;
   air.slot = nanoseconds(o.slot_us * 1e-6);
   air.channel.carrier_hz = o.carrier_ghz * 1e9;
   if (o.no_detection) {
@@ -158,7 +182,7 @@ void print(const Options& o, const SyntheticResult& r, double wall_s) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app{"Simulates an 802.11g ad hoc network with synthetic traffic; prints CSV.",
+  CLI::App app{"Simulates an 802.11 ad hoc network with synthetic traffic; prints CSV.",
                "cuscus-air"};
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);

@@ -43,6 +43,20 @@ std::string text_of(Integer value) {
   return std::to_string(value);
 }
 
+template <typename Enum>
+requires std::is_enum_v<Enum> std::string text_of(Enum value) {
+  return std::to_string(static_cast<int>(value));
+}
+
+template <typename Enum>
+requires std::is_enum_v<Enum>
+bool read(std::string_view field, Enum& value) {
+  constexpr int kValues = 2;  // of every enumeration in the header
+  int number = 0;
+  const bool known = read(field, number) && number >= 0 && number < kValues;
+  value = static_cast<Enum>(number);
+  return known;
+}
 bool read(std::string_view field, std::string& value) {
   value = field;
   return true;
@@ -105,9 +119,14 @@ void for_each_common(Parameters& p, const Field& field) {
   field("standard", p.standard);
   field("data_rate_kbps", p.data_rate_kbps);
   field("group_rate_kbps", p.group_rate_kbps);
+  field("rate_control", p.rate_control);
   field("basic_rates_kbps", p.basic_rates_kbps);
+  field("control_answer", p.control_answer);
+  field("dsss_preamble", p.dsss_preamble);
   field("slot_ns", p.slot);
   field("retry_limit", p.retry_limit);
+  field("long_retry_limit", p.long_retry_limit);
+  field("rts_threshold_bytes", p.rts_threshold_bytes);
   field("queue_frames", p.queue_frames);
   field("queue_lifetime_ns", p.queue_lifetime);
   field("error_model", p.error_model);
@@ -117,12 +136,24 @@ void for_each_common(Parameters& p, const Field& field) {
   field("sensitivity_dbm", p.sensitivity.value);
   field("detection_minimum_dbm", p.detection_minimum.value);
   field("detection_minimum_sinr_db", p.detection_minimum_sinr.value);
+  field("capture_in_preamble_db", p.capture_in_preamble.value);
+  field("capture_in_frame_db", p.capture_in_frame.value);
   field("carrier_hz", p.channel.carrier_hz);
   field("propagation", p.channel.model);
   field("exponent", p.channel.exponent);
   field("reference_loss_db", p.channel.reference_loss.value);
   field("alpha", p.channel.alpha);
   field("chi_db2", p.channel.chi_db2);
+  field("ground", p.channel.ground);
+  field("polarisation", p.channel.polarisation);
+  field("roughness_m", p.channel.roughness_m);
+  field("shadowing_db", p.channel.shadowing_db);
+  field("shadowing_decorrelation_m", p.channel.shadowing_decorrelation_m);
+  field("fading", p.channel.fading);
+  field("k_factor_db", p.channel.k_factor.value);
+  field("k_factor_overhead_db", p.channel.k_factor_overhead.value);
+  field("residual_doppler_hz", p.channel.residual_doppler_hz);
+  field("nakagami_m", p.channel.nakagami_m);
 }
 
 }  // namespace

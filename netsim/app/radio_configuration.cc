@@ -12,9 +12,15 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
   air.data_rate_kbps = c.data_rate_kbps();
   air.group_rate_kbps = c.group_rate_kbps();
   air.basic_rates_kbps.assign(c.basic_rates_kbps().begin(), c.basic_rates_kbps().end());
+  air.rate_control = c.rate_control();
+  air.control_answer =
+      c.answer_in_any_class() ? ControlAnswerRule::kAnyClass : ControlAnswerRule::kSameClass;
+  air.dsss_preamble = c.short_preamble() ? DsssPreamble::kShort : DsssPreamble::kLong;
   air.noise_figure = {c.noise_figure_db()};
   air.slot = Duration{c.slot_ns()};
   air.retry_limit = c.retry_limit();
+  air.long_retry_limit = c.long_retry_limit();
+  air.rts_threshold_bytes = c.rts_threshold_bytes();
   air.queue_frames = c.queue_frames();
   air.queue_lifetime = Duration{c.queue_lifetime_ns()};
   air.error_model = c.error_model();
@@ -22,6 +28,8 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
   air.cca_energy = {c.cca_energy_dbm()};
   air.detection_minimum = {c.detection_minimum_dbm()};
   air.detection_minimum_sinr = {c.detection_minimum_sinr_db()};
+  air.capture_in_preamble = {c.capture_in_preamble_db()};
+  air.capture_in_frame = {c.capture_in_frame_db()};
   const proto::PropagationConfiguration& p = c.propagation();
   air.channel = {.model = p.model(),
                  .carrier_hz = c.carrier_hz(),
@@ -29,6 +37,17 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
                  .reference_loss = {p.reference_loss_db()},
                  .alpha = p.alpha(),
                  .chi_db2 = p.chi_db2(),
+                 .ground = p.ground(),
+                 .polarisation = p.horizontal_polarisation() ? Polarisation::kHorizontal
+                                                             : Polarisation::kVertical,
+                 .roughness_m = p.roughness_m(),
+                 .shadowing_db = p.shadowing_db(),
+                 .shadowing_decorrelation_m = p.shadowing_decorrelation_m(),
+                 .fading = p.fading(),
+                 .k_factor = {p.k_factor_db()},
+                 .k_factor_overhead = {p.k_factor_overhead_db()},
+                 .residual_doppler_hz = p.residual_doppler_hz(),
+                 .nakagami_m = p.nakagami_m(),
                  .seed = c.seed()};
   air.nodes.resize(static_cast<std::size_t>(c.nodes_size()));
   for (int i = 0; i < c.nodes_size(); ++i) {

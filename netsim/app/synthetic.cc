@@ -23,6 +23,12 @@ std::vector<Eigen::Vector3d> positions_of(const Layout& layout, std::uint32_t no
                                layout.circle_radius_m * std::sin(angle_rad), 0.0);
         break;
       }
+      case Layout::Kind::kHidden: {
+        // Two senders on either side of the sink, which is the last node; see with_nodes().
+        const double side = i + 1 == nodes ? 0.0 : (i % 2 == 0 ? -1.0 : 1.0);
+        positions.emplace_back(side, 0.0, 0.0);
+        break;
+      }
       case Layout::Kind::kLine:
         positions.emplace_back(layout.line_spacing_m * i, 0.0, 0.0);
         break;
@@ -36,7 +42,8 @@ class Run final : public AirListener {
  public:
   explicit Run(const SyntheticParameters& parameters)
       : parameters_{parameters},
-        nodes_{std::max(parameters.senders, 2U)},
+        nodes_{parameters.traffic.to_sink ? parameters.senders + 1
+                                          : std::max(parameters.senders, 2U)},
         positions_{positions_of(parameters.layout, nodes_)},
         air_{with_nodes(parameters, nodes_), positions_, *this},
         measured_from_{SimTime{} + parameters.warm_up},
@@ -114,6 +121,11 @@ class Run final : public AirListener {
     if (parameters.layout.kind == Layout::Kind::kEqualPower) {
       air.channel.model = "fixed";
       air.channel.reference_loss = air.nodes.front().tx_power - parameters.layout.equal_power;
+    } else if (parameters.layout.kind == Layout::Kind::kHidden) {
+      // 1 m from the sink, 2 m from one another: 10 n lg 2 = 120 dB less, far below the floor.
+      air.channel.model = "log-distance";
+      air.channel.exponent = 40.0;
+      air.channel.reference_loss = air.nodes.front().tx_power - parameters.layout.equal_power;
     }
     air.channel.seed = air.seed;
     return air;
@@ -126,7 +138,7 @@ class Run final : public AirListener {
     const Traffic& traffic = parameters_.traffic;
     std::int32_t destination = kGroup;
     if (!traffic.group || traffic.kind == Traffic::Kind::kPing) {
-      destination = static_cast<std::int32_t>((node + 1) % nodes_);
+      destination = static_cast<std::int32_t>(traffic.to_sink ? nodes_ - 1 : (node + 1) % nodes_);
     }
     air_.offer(node, at,
                {.id = static_cast<std::uint64_t>(id),

@@ -10,9 +10,10 @@ namespace cuscus::netsim {
 
 /// Where synthetic nodes stand.
 struct Layout {
-  enum class Kind : std::uint8_t { kEqualPower, kCircle, kLine };
+  /// kHidden: senders hear the sink and nobody else.
+  enum class Kind : std::uint8_t { kEqualPower, kCircle, kLine, kHidden };
   Kind kind{Kind::kEqualPower};
-  DecibelMilliwatt equal_power{-50.0};  ///< Every link, by a fixed loss.
+  DecibelMilliwatt equal_power{-50.0};  ///< Every link that there is.
   double circle_radius_m{10.0};
   double line_spacing_m{100.0};
 };
@@ -27,6 +28,7 @@ struct Traffic {
   };
   Kind kind{Kind::kBeacons};
   bool group{true};
+  bool to_sink{false};  ///< All to one further node that sends nothing, not to a neighbour each.
   std::uint32_t udp_payload_bytes{64};
   Duration period{std::chrono::milliseconds{50}};
   Duration jitter{0};  ///< Per beacon, uniform.

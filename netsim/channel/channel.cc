@@ -46,14 +46,20 @@ std::unique_ptr<const PathLossModel> make_paper_equation_1(const ChannelParamete
   return std::make_unique<PaperEquation1>(p.alpha);
 }
 
+std::unique_ptr<const PathLossModel> make_two_ray(const ChannelParameters& p) {
+  return std::make_unique<TwoRay>(TwoRay::Parameters{
+      .ground = p.ground, .polarisation = p.polarisation, .roughness_m = p.roughness_m});
+}
+
 std::unique_ptr<const PathLossModel> make_fixed(const ChannelParameters& p) {
   require(p.reference_loss.value >= 0.0, p.model, "the loss must be at least 0 dB");
   return std::make_unique<FixedLoss>(p.reference_loss);
 }
 
 /// Every model by name: a new one is a class, a function above and a row here.
-constexpr std::array<Entry, 4> kModels{{{"friis", make_friis},
+constexpr std::array<Entry, 5> kModels{{{"friis", make_friis},
                                         {"log-distance", make_log_distance},
+                                        {"two-ray", make_two_ray},
                                         {"paper-eq1", make_paper_equation_1},
                                         {"fixed", make_fixed}}};
 
@@ -69,21 +75,67 @@ std::unique_ptr<const PathLossModel> make_path_loss(const ChannelParameters& par
                               "' is not known; allowed are " + allowed};
 }
 
+void require_term(bool holds, const std::string& rule) {
+  if (!holds) {
+    throw std::invalid_argument{rule};
+  }
+}
+
+std::unique_ptr<const Shadowing> make_shadowing(const ChannelParameters& p) {
+  require_term(p.shadowing_db >= 0.0 && std::isfinite(p.shadowing_db),
+               "shadowing: the standard deviation must be at least 0 dB");
+  if (p.shadowing_db == 0.0) {
+    return nullptr;
+  }
+  require_term(p.shadowing_decorrelation_m > 0.0 && std::isfinite(p.shadowing_decorrelation_m),
+               "shadowing: the decorrelation distance must be above 0 m");
+  return std::make_unique<Shadowing>(
+      Shadowing::Parameters{.deviation_db = p.shadowing_db,
+                            .decorrelation_m = p.shadowing_decorrelation_m,
+                            .seed = p.seed});
+}
+
+std::unique_ptr<const FadingModel> make_fading(const ChannelParameters& p) {
+  if (p.fading == "none") {
+    return nullptr;
+  }
+  if (p.fading == "rice") {
+    require_term(!std::isnan(p.k_factor.value) && !std::isnan(p.k_factor_overhead.value) &&
+                     p.k_factor.value <= 100.0 && p.k_factor_overhead.value <= 100.0,
+                 "fading: K factors must be at most 100 dB");
+    require_term(p.residual_doppler_hz >= 0.0 && std::isfinite(p.residual_doppler_hz),
+                 "fading: the residual Doppler must be at least 0 Hz");
+    return std::make_unique<RiceFading>(
+        RiceFading::Parameters{.k_at_horizon = p.k_factor,
+                               .k_at_zenith = p.k_factor_overhead,
+                               .residual_doppler_hz = p.residual_doppler_hz,
+                               .carrier_hz = p.carrier_hz,
+                               .seed = p.seed});
+  }
+  if (p.fading == "nakagami") {
+    require_term(p.nakagami_m >= 0.5 && std::isfinite(p.nakagami_m),
+                 "fading: m must be at least 0.5");
+    return std::make_unique<NakagamiFading>(p.seed, p.nakagami_m);
+  }
+  throw std::invalid_argument{"fading model '" + p.fading +
+                              "' is not known; allowed are 'none', 'rice', 'nakagami'"};
+}
+
 }  // namespace
 
 FrameVariation::FrameVariation(std::uint64_t seed, double variance_db2)
     : seed_{seed}, deviation_db_{std::sqrt(variance_db2)} {}
 
 Decibel FrameVariation::loss(const FrameOnLink& frame) const {
-  const auto [low, high] = std::minmax(frame.sender, frame.receiver);
-  const random::CounterStream stream{
-      seed_, random::stream_id(kFrameVariationStream, high, static_cast<std::uint16_t>(low))};
-  const std::uint64_t index = 2 * frame.transmission + (frame.sender == low ? 0 : 1);
+  const auto [stream, index] = FrameDraw::of(seed_, kFrameVariationStream, frame);
   return {deviation_db_ * stream.normal(index)};
 }
 
 Channel::Channel(const ChannelParameters& parameters)
-    : carrier_hz_{parameters.carrier_hz}, path_loss_{make_path_loss(parameters)} {
+    : carrier_hz_{parameters.carrier_hz},
+      path_loss_{make_path_loss(parameters)},
+      shadowing_{make_shadowing(parameters)},
+      fading_{make_fading(parameters)} {
   if (!(carrier_hz_ > 0.0) || !std::isfinite(carrier_hz_)) {
     throw std::invalid_argument{"carrier frequency must be above 0 Hz"};
   }
@@ -101,12 +153,21 @@ std::vector<std::string> Channel::model_names() {
   return names;
 }
 
-Decibel Channel::basic_loss(const Eigen::Vector3d& p_WT, const Eigen::Vector3d& p_WR) const {
-  return path_loss_->loss({.p_WT = p_WT, .p_WR = p_WR, .carrier_hz = carrier_hz_});
+Decibel Channel::static_loss(const Link& link) const {
+  const Decibel basic =
+      path_loss_->loss({.p_WT = link.p_WL, .p_WR = link.p_WH, .carrier_hz = carrier_hz_});
+  return shadowing_ ? basic + shadowing_->loss(link) : basic;
 }
 
 Decibel Channel::frame_loss(const FrameOnLink& frame) const {
-  return variation_ ? variation_->loss(frame) : Decibel{0.0};
+  Decibel loss{0.0};
+  if (variation_) {
+    loss = loss + variation_->loss(frame);
+  }
+  if (fading_) {
+    loss = loss + fading_->loss(frame);
+  }
+  return loss;
 }
 
 }  // namespace cuscus::netsim

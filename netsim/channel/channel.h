@@ -1,21 +1,19 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "common/units/decibel.h"
+#include "netsim/channel/fading.h"
+#include "netsim/channel/link.h"
 #include "netsim/channel/path_loss.h"
+#include "netsim/channel/shadowing.h"
+#include "netsim/channel/two_ray.h"
 
 namespace cuscus::netsim {
-
-/// One transmission over one link, for terms that change from frame to frame.
-struct FrameOnLink {
-  std::uint32_t sender;
-  std::uint32_t receiver;
-  std::uint64_t transmission;  ///< The sender's how-manieth, retries and ACKs included.
-};
 
 /// A loss drawn anew for every transmission over an unordered link: the paper's Ψ, a normal
 /// variable of mean 0 and *variance* χ [dB²].
@@ -37,14 +35,29 @@ class FrameVariation final {
 struct ChannelParameters {
   std::string model{"friis"};
   double carrier_hz{2.412e9};
-  double exponent{2.0};         ///< log-distance: n.
-  Decibel reference_loss{0.0};  ///< log-distance: at 1 m, 0 = free space; fixed: the loss.
-  double alpha{20.0};           ///< paper-eq1.
-  double chi_db2{0.0};          ///< paper-eq1: variance of Ψ.
+  double exponent{2.0};              ///< log-distance: n.
+  Decibel reference_loss{0.0};       ///< log-distance: at 1 m, 0 = free space; fixed: the loss.
+  double alpha{20.0};                ///< paper-eq1.
+  double chi_db2{0.0};               ///< paper-eq1: variance of Ψ.
+  std::string ground{"medium-dry"};  ///< two-ray.
+  Polarisation polarisation{Polarisation::kVertical};  ///< two-ray.
+  double roughness_m{0.0};   ///< two-ray: standard deviation of the ground's height.
+  double shadowing_db{0.0};  ///< Standard deviation; 0: no shadowing.
+  double shadowing_decorrelation_m{20.0};
+  std::string fading{"none"};                                  ///< "none", "rice" or "nakagami".
+  Decibel k_factor{-std::numeric_limits<double>::infinity()};  ///< rice; -inf: Rayleigh.
+  Decibel k_factor_overhead{-std::numeric_limits<double>::infinity()};  ///< rice: at the zenith.
+  double residual_doppler_hz{1.0};                                      ///< rice.
+  double nakagami_m{1.0};
   std::uint64_t seed{1};
 };
 
-/// The channel of a run: the chosen model with its per-frame term, if it has one.
+/// The channel of a run,
+///
+///   loss = basic(d) + shadowing(r_L, r_H) + Ψ(frame) + fading(r_L, r_H, t).
+///
+/// Every term is a pure function of (seed, unordered link, positions, frame, time): the same in
+/// both directions and in whatever order links are asked for. There is one term of each kind.
 class Channel {
  public:
   /// @throws std::invalid_argument naming what is wrong and what is allowed.
@@ -53,17 +66,22 @@ class Channel {
   /// Names that ChannelParameters::model may hold.
   [[nodiscard]] static std::vector<std::string> model_names();
 
-  /// The part that depends on the geometry alone, and may be kept while nobody moves.
-  [[nodiscard]] Decibel basic_loss(const Eigen::Vector3d& p_WT, const Eigen::Vector3d& p_WR) const;
+  /// The part that depends on the positions alone, and may be kept while nobody moves: basic loss
+  /// and shadowing.
+  [[nodiscard]] Decibel static_loss(const Link& link) const;
 
   /// Whether frame_loss() is ever other than zero.
-  [[nodiscard]] bool varies_per_frame() const { return variation_ != nullptr; }
+  [[nodiscard]] bool varies_per_frame() const {
+    return variation_ != nullptr || fading_ != nullptr;
+  }
   [[nodiscard]] Decibel frame_loss(const FrameOnLink& frame) const;
 
  private:
   double carrier_hz_;
   std::unique_ptr<const PathLossModel> path_loss_;
+  std::unique_ptr<const Shadowing> shadowing_;
   std::unique_ptr<const FrameVariation> variation_;
+  std::unique_ptr<const FadingModel> fading_;
 };
 
 }  // namespace cuscus::netsim

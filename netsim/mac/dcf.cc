@@ -3,42 +3,65 @@
 #include <algorithm>
 #include <cassert>
 #include <limits>
+#include <span>
 #include <utility>
 
 namespace cuscus::netsim {
 
+namespace {
+
+/// The mode whose ACK is the longest that stations wait for: the lowest mandatory one of the class
+/// of the basic rates (10.3.7, ACKTxTime).
+const Mode& lowest_mode(const Standard& standard, std::span<const std::uint32_t> basic_rates_kbps) {
+  const auto lowest = std::min_element(basic_rates_kbps.begin(), basic_rates_kbps.end());
+  const Mode* mode = &standard.modes.front();
+  if (lowest != basic_rates_kbps.end()) {
+    const ModulationClass basic_class = standard.mode(*lowest).modulation_class;
+    mode = &*std::find_if(standard.modes.begin(), standard.modes.end(), [&](const Mode& m) {
+      return m.mandatory && m.modulation_class == basic_class;
+    });
+  }
+  return *mode;
+}
+
+}  // namespace
+
 MacParameters MacParameters::from(const Standard& standard, Duration slot,
                                   std::uint32_t data_rate_kbps, std::uint32_t group_rate_kbps,
-                                  std::span<const std::uint32_t> basic_rates_kbps) {
-  const Mode& data = standard.mode(data_rate_kbps);
-  const Mode& group = standard.mode(group_rate_kbps);
-  // The lowest control answer there is: that of the lowest mode (10.3.7, ACKTxTime).
-  const Mode& lowest = control_answer(standard, standard.modes.front(), basic_rates_kbps);
+                                  std::span<const std::uint32_t> basic_rates_kbps,
+                                  ControlAnswerRule rule) {
   MacParameters parameters;
+  parameters.standard = &standard;
+  for (const Mode& mode : standard.modes) {
+    parameters.answers.push_back(&control_answer(standard, mode, basic_rates_kbps, rule));
+  }
   parameters.slot = slot;
   parameters.sifs = standard.sifs;
   parameters.difs = standard.sifs + 2 * slot;
-  parameters.eifs = standard.sifs + airtime(lowest, kAckBytes) + parameters.difs;
-  parameters.ack_timeout = standard.sifs + slot + standard.receive_start_delay;
+  parameters.eifs =
+      standard.sifs + airtime(lowest_mode(standard, basic_rates_kbps), kAckBytes) + parameters.difs;
   parameters.cw_min = standard.cw_min;
   parameters.cw_max = standard.cw_max;
-  parameters.data_mode = &data;
-  parameters.group_mode = &group;
-  parameters.ack_mode = &control_answer(standard, data, basic_rates_kbps);
-  parameters.group_ack_mode = &control_answer(standard, group, basic_rates_kbps);
+  parameters.data_mode = &standard.mode(data_rate_kbps);
+  parameters.group_mode = &standard.mode(group_rate_kbps);
+  parameters.rts_mode = &parameters.answer_to(*parameters.data_mode);
+  parameters.rts_threshold_bytes = std::numeric_limits<std::uint32_t>::max();
   return parameters;
 }
 
-Dcf::Dcf(std::uint32_t node, const MacParameters& parameters, MacHost& host,
+Dcf::Dcf(std::uint32_t node, const MacParameters& parameters, MacHost& host, RateControl& rates,
          random::CounterStream backoffs)
     : node_{node},
       parameters_{&parameters},
       host_{&host},
+      rates_{&rates},
       backoffs_{backoffs},
+      mode_{parameters.data_mode},
       cw_{parameters.cw_min},
       // The medium was idle before the run began.
       idle_since_{SimTime{} - parameters.eifs},
       nav_until_{idle_since_},
+      nav_without_rts_{idle_since_},
       eifs_until_{idle_since_} {}
 
 void Dcf::enqueue(SimTime now, const Msdu& msdu) {
@@ -50,7 +73,7 @@ void Dcf::enqueue(SimTime now, const Msdu& msdu) {
   if (queue_.size() > 1) {
     return;
   }
-  if (contending_ && !busy_ && sending_ == Sending::kNothing && access_time() <= now) {
+  if (contending_ && !busy_ && !sending_ && access_time() <= now) {
     contending_ = false;  // a post-backoff that ran out unobserved
   }
   if (!contending_) {
@@ -80,65 +103,115 @@ void Dcf::medium_idle(SimTime now) {
   assert(busy_);
   busy_ = false;
   idle_since_ = now;
+  if (std::exchange(eifs_due_, false)) {
+    eifs_until_ = now + parameters_->eifs - parameters_->difs;
+  }
   schedule_access(now);
 }
 
-void Dcf::reception_started(SimTime /*now*/) { receiving_ = true; }
+void Dcf::reception_started(SimTime /*now*/) {
+  receiving_ = true;
+  host_->cancel_timer(node_, MacTimer::kNavReset);
+}
 
 void Dcf::reception_failed(SimTime now) {
   const bool was_receiving = std::exchange(receiving_, false);
-  eifs_until_ = now + parameters_->eifs - parameters_->difs;
-  // A header that failed is no PHY-RXSTART: the ACK may still come before the timeout.
-  if (was_receiving && awaiting_ack_ && sending_ == Sending::kNothing) {
-    ack_missing(now);
+  // EIFS begins when the medium is idle after the frame that failed (10.3.2.3.7).
+  eifs_due_ = busy_;
+  if (!busy_) {
+    eifs_until_ = now + parameters_->eifs - parameters_->difs;
+  }
+  // A header that failed is no PHY-RXSTART: the answer may still come before the timeout.
+  if (was_receiving && awaited_ && !sending_) {
+    answer_missing(now);
   }
   schedule_access(now);
 }
 
 bool Dcf::received(SimTime now, const MacFrame& frame, const Mode& mode) {
   receiving_ = false;
+  eifs_due_ = false;
   eifs_until_ = std::min(eifs_until_, now);
   const bool mine = frame.receiver == static_cast<std::int32_t>(node_);
-  if (!mine && frame.duration > Duration::zero()) {
-    nav_until_ = std::max(nav_until_, now + frame.duration);
+  if (!mine) {
+    set_nav(now, frame, mode);
   }
-  if (awaiting_ack_ && sending_ == Sending::kNothing) {
-    if (mine && frame.kind == MacFrame::Kind::kAck) {
+  if (awaited_ && !sending_) {
+    if (!answers(frame)) {
+      answer_missing(now);
+    } else if (frame.kind == Kind::kAck) {
+      report_attempt(now, true);
       complete(now, SendOutcome::kAcknowledged);
     } else {
-      ack_missing(now);
+      awaited_.reset();
+      host_->cancel_timer(node_, MacTimer::kAnswerTimeout);
+      short_failures_ = 0;
+      respond_after_sifs(now, {.kind = Kind::kData}, *mode_);
     }
   }
-  bool deliver = frame.kind == MacFrame::Kind::kData && frame.receiver == kGroup;
-  if (mine && frame.kind == MacFrame::Kind::kData) {
-    response_ = {.kind = MacFrame::Kind::kAck,
-                 .sender = node_,
-                 .receiver = static_cast<std::int32_t>(frame.sender)};
-    response_mode_ =
-        &mode == parameters_->data_mode ? parameters_->ack_mode : parameters_->group_ack_mode;
-    response_due_ = true;
-    host_->set_timer(node_, MacTimer::kResponse, now + parameters_->sifs);
+  bool deliver = frame.kind == Kind::kData && frame.receiver == kGroup;
+  if (mine && frame.kind == Kind::kData) {
+    respond_after_sifs(
+        now,
+        {.kind = Kind::kAck, .sender = node_, .receiver = static_cast<std::int32_t>(frame.sender)},
+        parameters_->answer_to(mode));
     if (last_sequence_.size() <= frame.sender) {
       last_sequence_.resize(frame.sender + std::size_t{1}, 0);
     }
     deliver = last_sequence_[frame.sender] != frame.sequence;
     last_sequence_[frame.sender] = frame.sequence;
   }
+  if (mine && frame.kind == Kind::kRts && nav_until_ <= now) {
+    const Mode& answer = parameters_->answer_to(mode);
+    respond_after_sifs(now,
+                       {.kind = Kind::kCts,
+                        .sender = node_,
+                        .receiver = static_cast<std::int32_t>(frame.sender),
+                        .duration = std::max(Duration::zero(), frame.duration - parameters_->sifs -
+                                                                   airtime(answer, kCtsBytes))},
+                       answer);
+  }
   schedule_access(now);
   return deliver;
 }
 
+bool Dcf::answers(const MacFrame& frame) const {
+  return frame.receiver == static_cast<std::int32_t>(node_) && frame.kind == awaited_;
+}
+
+void Dcf::set_nav(SimTime now, const MacFrame& frame, const Mode& mode) {
+  const SimTime until = now + frame.duration;
+  if (until <= nav_until_ || frame.duration <= Duration::zero()) {
+    return;
+  }
+  if (frame.kind == Kind::kRts) {
+    const Mode& answer = parameters_->answer_to(mode);
+    nav_without_rts_ = nav_until_;
+    host_->set_timer(node_, MacTimer::kNavReset,
+                     now + 2 * parameters_->sifs + airtime(answer, kCtsBytes) +
+                         answer.format->receive_start_delay + 2 * parameters_->slot);
+  } else {
+    host_->cancel_timer(node_, MacTimer::kNavReset);
+  }
+  nav_until_ = until;
+}
+
+void Dcf::respond_after_sifs(SimTime now, const MacFrame& response, const Mode& mode) {
+  response_ = response;
+  response_mode_ = &mode;
+  response_due_ = true;
+  host_->set_timer(node_, MacTimer::kResponse, now + parameters_->sifs);
+}
+
 void Dcf::transmission_ended(SimTime now) {
-  const Sending sent = sending_;
-  sending_ = Sending::kNothing;
+  const std::optional<Kind> sent = std::exchange(sending_, std::nullopt);
   idle_since_ = now;
-  if (sent == Sending::kData) {
-    if (queue_.front().destination == kGroup) {
-      complete(now, SendOutcome::kSent);
-    } else {
-      awaiting_ack_ = true;
-      host_->set_timer(node_, MacTimer::kAckTimeout, now + parameters_->ack_timeout);
-    }
+  if (sent == Kind::kData && queue_.front().destination == kGroup) {
+    complete(now, SendOutcome::kSent);
+  } else if (sent == Kind::kData || sent == Kind::kRts) {
+    const Mode& mode = sent == Kind::kRts ? *parameters_->rts_mode : *mode_;
+    awaited_ = sent == Kind::kRts ? Kind::kCts : Kind::kAck;
+    host_->set_timer(node_, MacTimer::kAnswerTimeout, now + parameters_->answer_timeout(mode));
   }
   schedule_access(now);
 }
@@ -152,11 +225,15 @@ void Dcf::timer(SimTime now, MacTimer timer) {
     case MacTimer::kResponse:
       respond(now);
       break;
-    case MacTimer::kAckTimeout:
-      if (awaiting_ack_ && !receiving_) {  // else the reception that is under way decides
-        ack_missing(now);
+    case MacTimer::kAnswerTimeout:
+      if (awaited_ && !receiving_) {  // else the reception that is under way decides
+        answer_missing(now);
         schedule_access(now);
       }
+      break;
+    case MacTimer::kNavReset:
+      nav_until_ = std::min(nav_until_, std::max(nav_without_rts_, now));
+      schedule_access(now);
       break;
   }
 }
@@ -170,7 +247,7 @@ SimTime Dcf::access_time() const { return countdown_begins() + parameters_->slot
 
 /// Charges the idle time up to `now` against the backoff, before the medium becomes busy.
 void Dcf::count_down(SimTime now) {
-  if (!contending_ || immediate_ || busy_ || sending_ != Sending::kNothing) {
+  if (!contending_ || immediate_ || busy_ || sending_) {
     return;
   }
   const SimTime begins = countdown_begins();
@@ -194,8 +271,8 @@ void Dcf::draw_backoff(SimTime now) {
 }
 
 void Dcf::schedule_access(SimTime now) {
-  const bool possible = contending_ && !queue_.empty() && !busy_ && !awaiting_ack_ &&
-                        !response_due_ && sending_ == Sending::kNothing;
+  const bool possible =
+      contending_ && !queue_.empty() && !busy_ && !awaited_ && !response_due_ && !sending_;
   if (possible) {
     host_->set_timer(node_, MacTimer::kAccess, std::max(now, access_time()));
     access_set_ = true;
@@ -218,47 +295,93 @@ void Dcf::access(SimTime now) {
     return;
   }
   const Msdu& msdu = queue_.front();
+  if (msdu.destination == kGroup) {
+    mode_ = parameters_->group_mode;
+  } else if (msdu.destination == kNobody) {
+    mode_ = parameters_->data_mode;
+  } else {
+    mode_ = &rates_->mode(now, static_cast<std::uint32_t>(msdu.destination), attempts_);
+  }
   if (attempts_++ == 0) {
     sequence_ = sequence_ == std::numeric_limits<std::uint32_t>::max() ? 1 : sequence_ + 1;
   }
-  const bool group = msdu.destination == kGroup;
-  const Mode& mode = group ? *parameters_->group_mode : *parameters_->data_mode;
-  sending_ = Sending::kData;
+  if (msdu.destination == kGroup || msdu.psdu_bytes <= parameters_->rts_threshold_bytes) {
+    send_data();
+    return;
+  }
+  const MacParameters& p = *parameters_;
+  const Mode& cts = p.answer_to(*p.rts_mode);
+  sending_ = Kind::kRts;
   receiving_ = false;
   host_->transmit(
       node_,
-      {.kind = MacFrame::Kind::kData,
+      {.kind = Kind::kRts,
+       .sender = node_,
+       .receiver = msdu.destination,
+       .frame = msdu.frame,
+       .duration = 3 * p.sifs + airtime(cts, kCtsBytes) + airtime(*mode_, msdu.psdu_bytes) +
+                   airtime(p.answer_to(*mode_), kAckBytes)},
+      *p.rts_mode, kRtsBytes);
+}
+
+void Dcf::send_data() {
+  const Msdu& msdu = queue_.front();
+  const bool group = msdu.destination == kGroup;
+  sending_ = Kind::kData;
+  receiving_ = false;
+  host_->transmit(
+      node_,
+      {.kind = Kind::kData,
        .sender = node_,
        .receiver = msdu.destination,
        .frame = msdu.frame,
        .sequence = sequence_,
        .duration = group ? Duration::zero()
-                         : parameters_->sifs + airtime(*parameters_->ack_mode, kAckBytes)},
-      mode, msdu.psdu_bytes);
+                         : parameters_->sifs + airtime(parameters_->answer_to(*mode_), kAckBytes)},
+      *mode_, msdu.psdu_bytes);
 }
 
 void Dcf::respond(SimTime now) {
   response_due_ = false;
-  if (sending_ != Sending::kNothing) {
+  if (sending_) {
     return;
   }
   if (!immediate_) {
     count_down(now);
   }
-  sending_ = Sending::kAck;
+  if (response_.kind == Kind::kData) {
+    send_data();
+    return;
+  }
+  sending_ = response_.kind;
   receiving_ = false;
+  static_assert(kAckBytes == kCtsBytes);
   host_->transmit(node_, response_, *response_mode_, kAckBytes);
 }
 
-void Dcf::ack_missing(SimTime now) {
-  awaiting_ack_ = false;
-  host_->cancel_timer(node_, MacTimer::kAckTimeout);
-  if (attempts_ >= parameters_->retry_limit) {
+void Dcf::answer_missing(SimTime now) {
+  const MacParameters& p = *parameters_;
+  const bool after_rts = queue_.front().psdu_bytes > p.rts_threshold_bytes;
+  const bool long_attempt = awaited_ == Kind::kAck && after_rts;
+  if (awaited_ == Kind::kAck) {
+    report_attempt(now, false);
+  }
+  awaited_.reset();
+  host_->cancel_timer(node_, MacTimer::kAnswerTimeout);
+  ++(long_attempt ? long_failures_ : short_failures_);
+  if (short_failures_ >= p.short_retry_limit || long_failures_ >= p.long_retry_limit) {
     complete(now, SendOutcome::kRetryLimit);
     return;
   }
-  cw_ = std::min(2 * cw_ + 1, parameters_->cw_max);
+  cw_ = std::min(2 * cw_ + 1, p.cw_max);
   draw_backoff(now);
+}
+
+void Dcf::report_attempt(SimTime now, bool acknowledged) {
+  const std::int32_t destination = queue_.front().destination;
+  if (destination >= 0) {
+    rates_->report(now, static_cast<std::uint32_t>(destination), *mode_, acknowledged);
+  }
 }
 
 void Dcf::complete(SimTime now, SendOutcome outcome) {
@@ -266,10 +389,12 @@ void Dcf::complete(SimTime now, SendOutcome outcome) {
   const std::uint32_t attempts = attempts_;
   queue_.pop_front();
   attempts_ = 0;
+  short_failures_ = 0;
+  long_failures_ = 0;
   cw_ = parameters_->cw_min;
   if (outcome == SendOutcome::kAcknowledged) {
-    awaiting_ack_ = false;
-    host_->cancel_timer(node_, MacTimer::kAckTimeout);
+    awaited_.reset();
+    host_->cancel_timer(node_, MacTimer::kAnswerTimeout);
   }
   draw_backoff(now);
   host_->finished(node_, done, outcome, attempts);

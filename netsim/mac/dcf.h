@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "common/random/counter_stream.h"
 #include "common/units/sim_time.h"
+#include "netsim/mac/rate_control.h"
 #include "netsim/phy/standard.h"
 
 namespace cuscus::netsim {
@@ -24,11 +27,11 @@ struct Msdu {
 
 /// A frame on the air.
 struct MacFrame {
-  enum class Kind : std::uint8_t { kData, kAck };
+  enum class Kind : std::uint8_t { kData, kAck, kRts, kCts };
   Kind kind{Kind::kData};
   std::uint32_t sender{};
   std::int32_t receiver{kGroup};
-  std::uint32_t frame{};     ///< Of the Msdu; data only.
+  std::uint32_t frame{};     ///< Of the Msdu; data and RTS only.
   std::uint32_t sequence{};  ///< Per sender, kept in retries; data only.
   Duration duration{};  ///< The Duration field: for how long after its end the medium is taken.
 };
@@ -48,26 +51,40 @@ struct MacParameters {
   Duration sifs{};
   Duration difs{};
   Duration eifs{};
-  Duration ack_timeout{};  ///< From the end of one's own frame to giving up on PHY-RXSTART.
   std::uint32_t cw_min{};
   std::uint32_t cw_max{};
-  std::uint32_t retry_limit{};  ///< Attempts per frame.
+  std::uint32_t short_retry_limit{};    ///< Attempts of RTS, and of data without.
+  std::uint32_t long_retry_limit{};     ///< Attempts of data after an RTS.
+  std::uint32_t rts_threshold_bytes{};  ///< PSDUs above this are sent after RTS and CTS.
   std::uint32_t queue_frames{};
   Duration queue_lifetime{};  ///< Until the first attempt; after that the retry limit rules.
-  const Mode* data_mode{};
+  const Mode*
+      data_mode{};  ///< Of individually addressed frames, until a rate control knows better.
   const Mode* group_mode{};
-  const Mode* ack_mode{};
-  const Mode* group_ack_mode{};  ///< Answers whatever arrives at the group rate.
+  const Mode* rts_mode{};
+  const Standard* standard{};
+  std::vector<const Mode*> answers{};  ///< To frames of each mode of the standard.
 
-  /// DIFS, EIFS, timeout and control rates that follow from a standard and its basic rates.
+  /// DIFS, EIFS and control rates that follow from a standard and its basic rates. RTS is sent at
+  /// the rate at which the data would be answered.
   [[nodiscard]] static MacParameters from(const Standard& standard, Duration slot,
                                           std::uint32_t data_rate_kbps,
                                           std::uint32_t group_rate_kbps,
-                                          std::span<const std::uint32_t> basic_rates_kbps);
+                                          std::span<const std::uint32_t> basic_rates_kbps,
+                                          ControlAnswerRule rule = ControlAnswerRule::kSameClass);
+
+  /// At what rate a frame of this mode is answered.
+  [[nodiscard]] const Mode& answer_to(const Mode& mode) const {
+    return *answers[static_cast<std::size_t>(&mode - standard->modes.data())];
+  }
+  /// From the end of one's own frame to giving up on the PHY-RXSTART of its answer (10.3.2.9).
+  [[nodiscard]] Duration answer_timeout(const Mode& mode) const {
+    return sifs + slot + answer_to(mode).format->receive_start_delay;
+  }
 };
 
-enum class MacTimer : std::uint8_t { kAccess, kResponse, kAckTimeout };
-inline constexpr std::size_t kMacTimers = 3;
+enum class MacTimer : std::uint8_t { kAccess, kResponse, kAnswerTimeout, kNavReset };
+inline constexpr std::size_t kMacTimers = 4;
 
 /// What a station asks of the world around it.
 class MacHost {
@@ -96,16 +113,20 @@ class MacHost {
 ///   busy, resumed after DIFS, or EIFS after a reception that failed, ended early by one that
 ///   succeeds.
 /// - After every transmission a backoff is drawn, whether or not a frame waits (post-backoff).
-/// - CW doubles after a missing ACK and returns to its minimum on success and on giving up.
-/// - Every decoded frame for others sets the NAV from its Duration field. A wait for an ACK ends at
-///   the timeout, or with the reception that had begun by then.
+/// - CW doubles after a missing ACK or CTS and returns to its minimum on success and on giving up.
+/// - Every decoded frame for others sets the NAV from its Duration field; that of an RTS after
+///   which no frame begins is taken back [10.3.2.4]. A wait for an answer ends at the timeout, or
+///   with the reception that had begun by then.
+/// - Individually addressed frames above the RTS threshold are announced by RTS; a station whose
+///   NAV is set does not answer it.
 /// - Receivers acknowledge after SIFS whatever the medium does, and drop repeated frames of a
 /// sender.
 ///
 /// Times must not decrease from call to call.
 class Dcf {
  public:
-  Dcf(std::uint32_t node, const MacParameters& parameters, MacHost& host,
+  /// `parameters`, `host` and `rates` must outlive this object.
+  Dcf(std::uint32_t node, const MacParameters& parameters, MacHost& host, RateControl& rates,
       random::CounterStream backoffs);
 
   void enqueue(SimTime now, const Msdu& msdu);
@@ -125,7 +146,7 @@ class Dcf {
   [[nodiscard]] std::uint32_t contention_window() const { return cw_; }
 
  private:
-  enum class Sending : std::uint8_t { kNothing, kData, kAck };
+  using Kind = MacFrame::Kind;
 
   [[nodiscard]] SimTime countdown_begins() const;
   [[nodiscard]] SimTime access_time() const;
@@ -134,17 +155,26 @@ class Dcf {
   void schedule_access(SimTime now);
   void access(SimTime now);
   void respond(SimTime now);
-  void ack_missing(SimTime now);
+  void send_data();
+  void respond_after_sifs(SimTime now, const MacFrame& response, const Mode& mode);
+  void set_nav(SimTime now, const MacFrame& frame, const Mode& mode);
+  [[nodiscard]] bool answers(const MacFrame& frame) const;
+  void answer_missing(SimTime now);
+  void report_attempt(SimTime now, bool acknowledged);
   void complete(SimTime now, SendOutcome outcome);
 
   std::uint32_t node_;
   const MacParameters* parameters_;
   MacHost* host_;
+  RateControl* rates_;
   random::CounterStream backoffs_;
   std::uint64_t draw_{0};
 
-  std::deque<Msdu> queue_;  ///< The front one is being sent.
-  std::uint32_t attempts_{0};
+  std::deque<Msdu> queue_;     ///< The front one is being sent.
+  const Mode* mode_;           ///< Of its data.
+  std::uint32_t attempts_{0};  ///< RTS or data.
+  std::uint32_t short_failures_{0};
+  std::uint32_t long_failures_{0};
   std::uint32_t sequence_{0};
   std::uint32_t cw_;
 
@@ -157,16 +187,18 @@ class Dcf {
 
   // The medium.
   bool busy_{false};
-  Sending sending_{Sending::kNothing};
+  std::optional<Kind> sending_;
   SimTime idle_since_{};
   SimTime nav_until_{};
-  SimTime eifs_until_{};  ///< End of an EIFS, less DIFS.
+  SimTime nav_without_rts_{};  ///< What the NAV goes back to when an RTS comes to nothing.
+  bool eifs_due_{false};       ///< When the medium is idle again.
+  SimTime eifs_until_{};       ///< End of an EIFS, less DIFS.
 
   // The exchange.
-  bool awaiting_ack_{false};
+  std::optional<Kind> awaited_;  ///< ACK or CTS.
   bool receiving_{false};
   bool response_due_{false};
-  MacFrame response_{};
+  MacFrame response_{};  ///< ACK, CTS, or data after a CTS.
   const Mode* response_mode_{nullptr};
   std::vector<std::uint32_t> last_sequence_;  ///< By sender; 0: none.
 };

@@ -25,8 +25,9 @@ double coded_bit_error(Modulation modulation, double sinr_ratio) {
       return square_qam(sinr_ratio, 16.0);
     case Modulation::k64Qam:
       return square_qam(sinr_ratio, 64.0);
+    default:
+      return 0.5;
   }
-  return 0.5;
 }
 
 /// Σ weights[k] · x^k by Horner's rule.
@@ -49,10 +50,52 @@ constexpr std::array<double, 10> kThreeQuartersWeights{
     42.0,     201.0,     1492.0,     10469.0,    62935.0,
     379644.0, 2253373.0, 13073811.0, 75152755.0, 428005675.0};
 
+bool is_dsss(CodeRate code_rate) { return code_rate == CodeRate::kUncoded; }
+
+double yans_coded_bit_error(Modulation modulation, double sinr_ratio) {
+  constexpr double kBandwidth_MHz = 20.0;
+  const auto qam = [&](double points, double coded_Mbps) {
+    const double bits = std::log2(points);
+    const double snr = sinr_ratio * kBandwidth_MHz / coded_Mbps;
+    const double z = std::sqrt(1.5 * bits * snr / (points - 1.0));
+    const double one_axis = (1.0 - 1.0 / std::sqrt(points)) * std::erfc(z);
+    return (1.0 - (1.0 - one_axis) * (1.0 - one_axis)) / bits;
+  };
+  switch (modulation) {
+    case Modulation::kBpsk:
+      return 0.5 * std::erfc(std::sqrt(sinr_ratio * kBandwidth_MHz / 12.0));
+    case Modulation::kQpsk:
+      return qam(4.0, 24.0);
+    case Modulation::k16Qam:
+      return qam(16.0, 48.0);
+    case Modulation::k64Qam:
+      return qam(64.0, 72.0);
+    default:
+      return 0.5;
+  }
+}
+
+/// Probability that a path at Hamming distance `d` is preferred to the right one.
+double pairwise_error(double bit_error, int d) {
+  double sum = 0.0;
+  double binomial = 1.0;  // C(d, i)
+  for (int i = 0; i <= d; ++i) {
+    if (2 * i >= d) {
+      const double share = 2 * i == d ? 0.5 : 1.0;
+      sum += share * binomial * std::pow(bit_error, i) * std::pow(1.0 - bit_error, d - i);
+    }
+    binomial = binomial * (d - i) / (i + 1);
+  }
+  return sum;
+}
+
 }  // namespace
 
 double NistErrorModel::bit_failure(Modulation modulation, CodeRate code_rate,
                                    double sinr_ratio) const {
+  if (is_dsss(code_rate)) {
+    return dsss_bit_failure(modulation, sinr_ratio);
+  }
   const double p = coded_bit_error(modulation, sinr_ratio);
   const double d2 = 4.0 * p * (1.0 - p);
   const double d = std::sqrt(d2);
@@ -68,6 +111,35 @@ double NistErrorModel::bit_failure(Modulation modulation, CodeRate code_rate,
     case CodeRate::kThreeQuarters:
       bound = d4 * d * polynomial(kThreeQuartersWeights, d) / 6.0;
       break;
+    case CodeRate::kUncoded:
+      break;  // above
+  }
+  return std::min(bound, 1.0);
+}
+
+double YansErrorModel::bit_failure(Modulation modulation, CodeRate code_rate,
+                                   double sinr_ratio) const {
+  if (is_dsss(code_rate)) {
+    return dsss_bit_failure(modulation, sinr_ratio);
+  }
+  const double p = yans_coded_bit_error(modulation, sinr_ratio);
+  const bool first_term_only = modulation == Modulation::kBpsk;
+  double bound = 0.0;
+  switch (code_rate) {
+    case CodeRate::kHalf:
+      bound = 11.0 * pairwise_error(p, 10);
+      break;
+    case CodeRate::kTwoThirds:
+      bound = pairwise_error(p, 6) + 16.0 * pairwise_error(p, 7);
+      break;
+    case CodeRate::kThreeQuarters:
+      bound = 8.0 * pairwise_error(p, 5);
+      if (!first_term_only) {
+        bound += 31.0 * pairwise_error(p, 6);
+      }
+      break;
+    case CodeRate::kUncoded:
+      break;  // above
   }
   return std::min(bound, 1.0);
 }
@@ -76,8 +148,11 @@ std::unique_ptr<const ErrorModel> make_error_model(std::string_view name) {
   if (name == "nist") {
     return std::make_unique<NistErrorModel>();
   }
+  if (name == "yans") {
+    return std::make_unique<YansErrorModel>();
+  }
   throw std::invalid_argument{"error model '" + std::string{name} +
-                              "' is not known; allowed is 'nist'"};
+                              "' is not known; allowed are 'nist', 'yans'"};
 }
 
 double log_success(double bit_failure, double bits) {

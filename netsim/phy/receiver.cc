@@ -32,6 +32,8 @@ ReceiverModel::ReceiverModel(const ReceiverParameters& parameters, const ErrorMo
       cca_energy_mw_{parameters.cca_energy.milliwatts()},
       minimum_mw_{std::max(parameters.sensitivity, parameters.detection_minimum).milliwatts()},
       minimum_sinr_{parameters.detection_minimum_sinr.ratio()},
+      capture_in_preamble_{parameters.capture_in_preamble.ratio()},
+      capture_in_frame_{parameters.capture_in_frame.ratio()},
       errors_{&errors} {
   // Below this, (1 - p)^n is 1 to double precision for every frame that fits the standard.
   constexpr double kNegligibleBitFailure = 1e-21;
@@ -72,26 +74,36 @@ bool Receiver::detect(SimTime now, Arrival& arrival, const PpduTiming& timing) {
   if (arrival.cause != LossCause::kNone) {
     return false;
   }
+  const double interference_mw = std::max(0.0, total_mw_ - arrival.power_mw);
   if (transmitting_) {
     arrival.cause = LossCause::kHalfDuplex;
   } else if (!model_->detectable(arrival.power_mw, 0.0)) {
     arrival.cause = LossCause::kBelowDetection;
-  } else if (locked_ != nullptr ||
-             !model_->detectable(arrival.power_mw, std::max(0.0, total_mw_ - arrival.power_mw))) {
+  } else if (!model_->detectable(arrival.power_mw, interference_mw) ||
+             (locked_ != nullptr &&
+              !model_->captures(now < timing_.header_begins, arrival.power_mw, interference_mw))) {
     arrival.cause = LossCause::kCollision;
   } else {
-    locked_ = &arrival;
-    carrier_ = arrival.power_mw >= model_->cca_preamble_mw();
-    timing_ = {.header_begins = timing.header_begins + arrival.delay,
-               .payload_begins = timing.payload_begins + arrival.delay,
-               .energy_ends = timing.energy_ends + arrival.delay,
-               .mode = timing.mode};
-    chunk_begins_ = now;
-    log_header_ = 0.0;
-    log_payload_ = 0.0;
+    if (locked_ != nullptr) {
+      locked_->cause = LossCause::kCollision;
+      locked_->decoded = false;
+    }
+    lock_on(now, arrival, timing);
     return true;
   }
   return false;
+}
+
+void Receiver::lock_on(SimTime now, Arrival& arrival, const PpduTiming& timing) {
+  locked_ = &arrival;
+  carrier_ = arrival.power_mw >= model_->cca_preamble_mw();
+  timing_ = {.header_begins = timing.header_begins + arrival.delay,
+             .payload_begins = timing.payload_begins + arrival.delay,
+             .energy_ends = timing.energy_ends + arrival.delay,
+             .mode = timing.mode};
+  chunk_begins_ = now;
+  log_header_ = 0.0;
+  log_payload_ = 0.0;
 }
 
 Receiver::Header Receiver::header(SimTime now, Arrival& arrival) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "common/random/counter_stream.h"
 #include "common/units/decibel.h"
@@ -27,6 +28,10 @@ struct ReceiverParameters {
   DecibelMilliwatt sensitivity{};        ///< Nothing below is ever detected.
   DecibelMilliwatt detection_minimum{};  ///< Preamble detection; -inf: none.
   Decibel detection_minimum_sinr{};      ///< Preamble detection; -inf: none.
+  /// Capture: SINR from which a later frame takes the receiver from the one that it is locked on,
+  /// during that one's preamble and after it (message in message); +inf: never.
+  Decibel capture_in_preamble{std::numeric_limits<double>::infinity()};
+  Decibel capture_in_frame{std::numeric_limits<double>::infinity()};
 };
 
 /// k T0 B and a noise figure. (At 20 MHz and 7 dB: -93.97 dBm.)
@@ -44,6 +49,11 @@ class ReceiverModel {
   [[nodiscard]] bool detectable(double signal_mw, double interference_mw) const {
     return signal_mw >= minimum_mw_ && signal_mw >= minimum_sinr_ * (noise_mw_ + interference_mw);
   }
+  /// Whether a frame takes the receiver from another, whose preamble is still heard or not.
+  [[nodiscard]] bool captures(bool in_preamble, double signal_mw, double interference_mw) const {
+    return signal_mw >=
+           (in_preamble ? capture_in_preamble_ : capture_in_frame_) * (noise_mw_ + interference_mw);
+  }
   /// ln of the probability that `bits` survive at this SINR.
   [[nodiscard]] double log_success_of(Modulation modulation, CodeRate code_rate, double sinr_ratio,
                                       double bits) const;
@@ -54,9 +64,11 @@ class ReceiverModel {
   double cca_energy_mw_;
   double minimum_mw_;
   double minimum_sinr_;
+  double capture_in_preamble_;
+  double capture_in_frame_;
   const ErrorModel* errors_;
   /// Per modulation and code rate: from this SINR on no bit fails, to double precision.
-  std::array<std::array<double, 3>, 4> certain_sinr_{};
+  std::array<std::array<double, kCodeRates>, kModulations> certain_sinr_{};
 };
 
 /// One transmission as one receiver gets it.
@@ -81,8 +93,8 @@ struct PpduTiming {
 /// Interference is accumulated in chunks: whenever the total power on the antenna changes, the
 /// stretch since the last change is charged with its own SINR. A frame is locked on when its
 /// preamble has been heard for the CCA time, nothing else is being received and it is strong
-/// enough; there is no capture: a locked receiver stays with its frame. SIGNAL field and payload
-/// are decided apart.
+/// enough. A locked receiver stays with its frame unless a later one captures it. SIGNAL field and
+/// payload are decided apart.
 ///
 /// The caller brings events in the order of their time: begin and, after the CCA time, detect;
 /// header at the end of the SIGNAL field; energy_ends; finish after the signal extension. Arrivals
@@ -115,6 +127,7 @@ class Receiver {
   }
 
  private:
+  void lock_on(SimTime now, Arrival& arrival, const PpduTiming& timing);
   void settle(SimTime now);
   void charge(SimTime from, SimTime to, double sinr_ratio);
   bool decide(Arrival& arrival, double log_success, double log_success_in_noise);

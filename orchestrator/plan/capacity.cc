@@ -25,31 +25,50 @@ constexpr std::uint32_t kTelemetry_bytes = 70 + 28;
 
 double seconds(scenario::Duration duration) { return to_seconds(duration); }
 
-/// DIFS and the mean of the first backoff, of 0 ... 15 slots.
-double contention_s(const scenario::Radio& radio) {
-  constexpr double kSifs_s = 10e-6;
-  constexpr double kMeanBackoff_slots = 7.5;
-  return kSifs_s + (2.0 + kMeanBackoff_slots) * seconds(radio.slot);
+double sifs_s(scenario::RadioStandard standard) {
+  switch (standard) {
+    case scenario::RadioStandard::k80211a:
+      return 16e-6;
+    case scenario::RadioStandard::k80211p:
+      return 32e-6;
+    default:
+      return 10e-6;
+  }
 }
 
-}  // namespace
+/// DIFS and the mean of the first backoff, of 0 ... 15 slots (802.11b: 31).
+double contention_s(const scenario::Radio& radio) {
+  const double mean_backoff_slots = radio.standard == scenario::RadioStandard::k80211b ? 15.5 : 7.5;
+  return sifs_s(radio.standard) + (2.0 + mean_backoff_slots) * seconds(radio.slot);
+}
 
-double airtime_s(std::uint32_t ip_bytes, std::uint32_t rate_kbps) {
-  const double psdu_bits = 8.0 * (24 + 8 + ip_bytes + 4);
+double psdu_airtime_s(const scenario::Radio& radio, std::uint32_t psdu_bytes,
+                      std::uint32_t rate_kbps) {
   const double rate_Mbps = rate_kbps / 1000.0;
   const bool is_dsss =
       rate_kbps == 1000 || rate_kbps == 2000 || rate_kbps == 5500 || rate_kbps == 11000;
   if (is_dsss) {
-    return (192.0 + psdu_bits / rate_Mbps) * 1e-6;
+    const bool is_short = radio.dsss_preamble == scenario::DsssPreamble::kShort && rate_kbps > 1000;
+    return ((is_short ? 96.0 : 192.0) + std::ceil(8.0 * psdu_bytes / rate_Mbps)) * 1e-6;
   }
-  const double symbols = std::ceil((16.0 + psdu_bits + 6.0) / (4.0 * rate_Mbps));
-  return (20.0 + 4.0 * symbols + 6.0) * 1e-6;
+  const double scale = radio.standard == scenario::RadioStandard::k80211p ? 2.0 : 1.0;
+  const double extension = radio.standard == scenario::RadioStandard::k80211g ? 6.0 : 0.0;
+  const double symbols = std::ceil((16.0 + 8.0 * psdu_bytes + 6.0) / (4.0 * scale * rate_Mbps));
+  return (scale * (20.0 + 4.0 * symbols) + extension) * 1e-6;
+}
+
+}  // namespace
+
+double airtime_s(const scenario::Radio& radio, std::uint32_t ip_bytes, std::uint32_t rate_kbps) {
+  return psdu_airtime_s(radio, 24 + 8 + ip_bytes + 4, rate_kbps);
 }
 
 CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
   const double others = scenario.node_count() - 1.0;
   const scenario::Radio& radio = scenario.radio;
-  const double ack_s = 10e-6 + airtime_s(0, radio.basic_rates_kbps.front());
+  constexpr std::uint32_t kAck_bytes = 14;
+  const double ack_s =
+      sifs_s(radio.standard) + psdu_airtime_s(radio, kAck_bytes, radio.basic_rates_kbps.front());
   CapacityEstimate estimate;
   double loops_per_s = 0.0;
   double vehicles = 0.0;
@@ -64,7 +83,8 @@ CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
       estimate.frames_per_s += beacons_per_s;
       estimate.copies_per_s += beacons_per_s * others;
       estimate.air_busy_fraction +=
-          beacons_per_s * (contention_s(radio) + airtime_s(kBeacon_bytes, radio.group_rate_kbps));
+          beacons_per_s *
+          (contention_s(radio) + airtime_s(radio, kBeacon_bytes, radio.group_rate_kbps));
     }
     if (scenario.ground_station.enabled) {
       const double reports_per_s = group.count / seconds(group.telemetry_period);
@@ -72,7 +92,7 @@ CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
       estimate.copies_per_s += reports_per_s;
       estimate.air_busy_fraction +=
           reports_per_s *
-          (contention_s(radio) + ack_s + airtime_s(kTelemetry_bytes, radio.data_rate_kbps));
+          (contention_s(radio) + ack_s + airtime_s(radio, kTelemetry_bytes, radio.data_rate_kbps));
     }
   }
   const double copy_s = scenario.network.attach == Attach::kDirect ? kDirectCopy_s : kBridgeCopy_s;

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "common/ipc/control_socket.h"
@@ -39,6 +40,9 @@ proto::RadioConfiguration configuration() {
   c.set_noise_figure_db(7.0);
   c.set_slot_ns(20'000);
   c.set_retry_limit(7);
+  c.set_long_retry_limit(7);
+  c.set_rate_control("constant");
+  c.set_rts_threshold_bytes(0xffffffff);
   c.set_queue_frames(500);
   c.set_queue_lifetime_ns(500'000'000);
   c.set_error_model("nist");
@@ -46,7 +50,10 @@ proto::RadioConfiguration configuration() {
   c.set_cca_energy_dbm(-62.0);
   c.set_detection_minimum_dbm(-82.0);
   c.set_detection_minimum_sinr_db(4.0);
+  c.set_capture_in_preamble_db(std::numeric_limits<double>::infinity());
+  c.set_capture_in_frame_db(std::numeric_limits<double>::infinity());
   c.mutable_propagation()->set_model("friis");
+  c.mutable_propagation()->set_fading("none");
   for (std::uint32_t i = 0; i < kNodes; ++i) {
     auto* const node = c.add_nodes();
     node->set_node(i);

@@ -75,6 +75,10 @@ TEST_CASE("Each component of the default scenario is told all that it needs") {
   CHECK(radio.queue_lifetime_ns() == 500'000'000);
   CHECK(radio.detection_minimum_dbm() == -82.0);
   CHECK(radio.propagation().model() == "friis");
+  CHECK(radio.propagation().fading() == "none");
+  CHECK(radio.propagation().shadowing_db() == 0.0);
+  CHECK(radio.rts_threshold_bytes() == 0xffffffff);
+  CHECK(radio.long_retry_limit() == 7);
   CHECK(radio.bridge());
   REQUIRE(radio.nodes_size() == 11);
   CHECK(radio.nodes(4).mac() == std::string("\x02\x63\x75\x73\x00\x05", 6));
@@ -234,14 +238,44 @@ TEST_CASE("A thousand nodes have a thousand addresses, and too small a network i
       plan_of(R"({"name": "t", "network": {"subnet": "10.0.0.0/24"}, "fleet": [{"count": 253}]})"));
 }
 
+TEST_CASE("Fading, shadowing and RTS reach the radio's configuration") {
+  const auto radio_of = [](const std::string& radio) {
+    return plan_of(R"({"name": "t", "fleet": [{}], "radio": )" + radio + "}").radio;
+  };
+
+  const auto rice = radio_of(R"({"rts_threshold": 0, "shadowing": {"deviation": "5 dB"},
+                                 "fading": {"model": "rice", "k_factor": "4 dB"}})");
+  CHECK(rice.rts_threshold_bytes() == 0);
+  CHECK(rice.propagation().shadowing_db() == 5.0);
+  CHECK(rice.propagation().shadowing_decorrelation_m() == 20.0);
+  CHECK(rice.propagation().fading() == "rice");
+  CHECK(rice.propagation().k_factor_db() == 4.0);
+  CHECK(rice.propagation().k_factor_overhead_db() == 15.0);
+  const auto rayleigh = radio_of(R"({"fading": {"model": "rayleigh"}, "preamble": "short",
+                                     "control_answer": "any-class"})");
+  CHECK(rayleigh.propagation().fading() == "rice");
+  CHECK(std::isinf(rayleigh.propagation().k_factor_db()));
+  CHECK(std::isinf(rayleigh.propagation().k_factor_overhead_db()));
+  CHECK(rayleigh.short_preamble());
+  CHECK(rayleigh.answer_in_any_class());
+  CHECK(radio_of(R"({"fading": {"model": "nakagami", "m": 3.5}})").propagation().nakagami_m() ==
+        3.5);
+}
+
 TEST_CASE("Time on air is the standard's") {
   // A 64 B IP packet is a PSDU of 100 B, a 1500 B one of 1536 B. IEEE Std 802.11-2020, 17.4.3:
   // 20 us + 4 us ceil((22 + 8 L) / N_DBPS), and 6 us signal extension (18.3.2.4).
-  CHECK(airtime_s(64, 6000) == Approx(166e-6));
-  CHECK(airtime_s(64, 54000) == Approx(42e-6));
-  CHECK(airtime_s(1500, 6000) == Approx(2078e-6));
-  CHECK(airtime_s(1500, 54000) == Approx(254e-6));
-  CHECK(airtime_s(64, 1000) == Approx(992e-6));  // 192 us + 800 bit
+  const scenario::Radio radio;
+  CHECK(airtime_s(radio, 64, 6000) == Approx(166e-6));
+  CHECK(airtime_s(radio, 64, 54000) == Approx(42e-6));
+  CHECK(airtime_s(radio, 1500, 6000) == Approx(2078e-6));
+  CHECK(airtime_s(radio, 1500, 54000) == Approx(254e-6));
+  CHECK(airtime_s(radio, 64, 1000) == Approx(992e-6));  // 192 us + 800 bit
+  // 802.11a has no extension; 802.11p is clocked at half: 40 + 8 ceil((22 + 8 L) / N_DBPS).
+  CHECK(airtime_s(scenario::default_radio(scenario::RadioStandard::k80211a), 64, 6000) ==
+        Approx(160e-6));
+  CHECK(airtime_s(scenario::default_radio(scenario::RadioStandard::k80211p), 128, 3000) ==
+        Approx(488e-6));
 }
 
 TEST_CASE("The estimate counts beacons at every receiver and telemetry at one") {

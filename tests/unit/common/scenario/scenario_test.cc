@@ -76,6 +76,10 @@ TEST_CASE("The file's quantities arrive in SI units") {
 TEST_CASE("The scenario written out in full is the same scenario") {
   const std::string rich = R"({"name": "rich", "seed": 9223372036854775807, "clock": "real",
       "radio": {"preamble_detection": "none", "basic_rates": ["24 Mb/s", "9 Mb/s"],
+                "control_answer": "any-class", "preamble": "short", "rts_threshold": 500,
+                "long_retry_limit": 4, "error_model": "yans", "rate_control": "minstrel", "capture": {"frame": "10 dB"},
+                "shadowing": {"deviation": "6 dB", "decorrelation": "13 m"},
+                "fading": {"model": "rice", "k_factor": "3 dB", "residual_doppler": "2 Hz"},
                 "propagation": {"model": "paper-eq1", "alpha": 22.5, "chi": "9 dB2"}},
       "network": {"subnet": "192.168.7.0/24", "attach": "direct", "neighbours": "arp"},
       "fleet": [
@@ -90,6 +94,13 @@ TEST_CASE("The scenario written out in full is the same scenario") {
          "start": {"layout": "list", "positions": [["1 m", "2 m", "30 cm"]]}}],
       "ground_station": {"page": "none"}, "record": {"frames": true}})";
   std::vector<Scenario> scenarios{parse(rich)};
+  for (const char* const radio :
+       {R"({"standard": "802.11p", "fading": {"model": "nakagami", "m": 2.5}})",
+        R"({"standard": "802.11b", "fading": {"model": "rayleigh"}})", R"({"standard": "802.11a"})",
+        R"({"propagation": {"model": "two-ray", "ground": "wet", "roughness": "5 cm"}})"}) {
+    scenarios.push_back(
+        parse(R"({"name": "t", "fleet": [{}], "radio": )" + std::string{radio} + "}"));
+  }
   for (const auto& file : shipped()) {
     scenarios.push_back(load_scenario(file));
   }
@@ -116,6 +127,20 @@ TEST_CASE("Every shipped scenario loads, and uses the schema beside it") {
     CHECK(json::parse(stream).at("$schema") == "./scenario.schema.json");
     CHECK(load_scenario(file).name == file.stem());
   }
+}
+
+TEST_CASE("A radio has the defaults of its standard") {
+  const auto radio_of = [](const std::string& standard) {
+    return parse(R"({"name": "t", "fleet": [{}], "radio": {"standard": ")" + standard + "\"}}")
+        .radio;
+  };
+
+  CHECK(radio_of("802.11b").data_rate_kbps == 1000);
+  CHECK(radio_of("802.11b").basic_rates_kbps == std::vector<std::uint32_t>{1000, 2000});
+  CHECK(radio_of("802.11a").slot == 9us);
+  CHECK(radio_of("802.11a").channel_frequency_hz == 5.18e9);
+  CHECK(radio_of("802.11p").slot == 13us);
+  CHECK(radio_of("802.11p").basic_rates_kbps == std::vector<std::uint32_t>{3000, 6000, 12000});
 }
 
 TEST_CASE("The default scenario is the paper's fleet") {

@@ -7,7 +7,7 @@ namespace cuscus::netsim {
 namespace {
 
 Decibel loss_at(const Channel& channel, double distance_m) {
-  return channel.basic_loss({0.0, 0.0, 10.0}, {distance_m, 0.0, 10.0});
+  return channel.static_loss(Link::between(0, {0.0, 0.0, 10.0}, 1, {distance_m, 0.0, 10.0}));
 }
 
 TEST_CASE("log-distance with exponent 2 and no reference loss is free space") {
@@ -47,6 +47,13 @@ TEST_CASE("the curves of equation 1 meet where distance times frequency is 1 km 
   CHECK(loss_at(steep, 100.0) < loss_at(shallow, 100.0));
 }
 
+FrameOnLink frame_of(std::uint32_t sender, std::uint32_t receiver, std::uint64_t transmission) {
+  return {.link = Link::between(sender, Eigen::Vector3d::Zero(), receiver, Eigen::Vector3d::Zero()),
+          .from_low = sender < receiver,
+          .transmission = transmission,
+          .time = {}};
+}
+
 TEST_CASE(
     "Psi has mean 0 and variance chi, and is drawn per transmission and direction-free link") {
   const FrameVariation psi{7, 16.0};
@@ -54,7 +61,7 @@ TEST_CASE(
   double sum = 0.0;
   double squares = 0.0;
   for (std::uint64_t i = 0; i < kDraws; ++i) {
-    const double x = psi.loss({.sender = 3, .receiver = 9, .transmission = i}).value;
+    const double x = psi.loss(frame_of(3, 9, i)).value;
     sum += x;
     squares += x * x;
   }
@@ -62,22 +69,25 @@ TEST_CASE(
   // Standard errors: 4 / sqrt(n) = 0.028 for the mean, 16 sqrt(2/n) = 0.16 for the variance.
   CHECK(sum / kDraws == Approx(0.0).margin(0.12));
   CHECK(squares / kDraws == Approx(16.0).margin(0.7));
-  CHECK(psi.loss({.sender = 3, .receiver = 9, .transmission = 5}) ==
-        psi.loss({.sender = 3, .receiver = 9, .transmission = 5}));
-  CHECK(psi.loss({.sender = 3, .receiver = 9, .transmission = 5}) !=
-        psi.loss({.sender = 9, .receiver = 3, .transmission = 5}));
-  CHECK(psi.loss({.sender = 3, .receiver = 9, .transmission = 5}) !=
-        psi.loss({.sender = 3, .receiver = 8, .transmission = 5}));
+  CHECK(psi.loss(frame_of(3, 9, 5)) == psi.loss(frame_of(3, 9, 5)));
+  CHECK(psi.loss(frame_of(3, 9, 5)) != psi.loss(frame_of(9, 3, 5)));
+  CHECK(psi.loss(frame_of(3, 9, 5)) != psi.loss(frame_of(3, 8, 5)));
 }
 
 TEST_CASE("a wrong model or parameter is named, with what is allowed") {
   CHECK_THROWS_WITH((Channel{{.model = "frees"}}),
                     "propagation model 'frees' is not known; allowed are 'friis', 'log-distance', "
-                    "'paper-eq1', 'fixed'");
+                    "'two-ray', 'paper-eq1', 'fixed'");
   CHECK_THROWS_WITH((Channel{{.model = "log-distance", .exponent = 0.0}}),
                     "propagation model 'log-distance': exponent must be above 0");
   CHECK_THROWS_WITH((Channel{{.model = "paper-eq1", .chi_db2 = -1.0}}),
                     "propagation model 'paper-eq1': chi is a variance and must be at least 0 dB^2");
+  CHECK_THROWS_WITH((Channel{{.fading = "rician"}}),
+                    "fading model 'rician' is not known; allowed are 'none', 'rice', 'nakagami'");
+  CHECK_THROWS_WITH((Channel{{.fading = "nakagami", .nakagami_m = 0.4}}),
+                    "fading: m must be at least 0.5");
+  CHECK_THROWS_WITH((Channel{{.shadowing_db = -1.0}}),
+                    "shadowing: the standard deviation must be at least 0 dB");
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ constexpr std::array<std::uint32_t, 3> kBasic{6'000, 12'000, 24'000};
 
 MacParameters parameters() {
   auto p = MacParameters::from(ieee80211g(), microseconds{20}, 6'000, 6'000, kBasic);
-  p.retry_limit = 7;
+  p.short_retry_limit = 7;
+  p.long_retry_limit = 4;
   p.queue_frames = 3;
   p.queue_lifetime = milliseconds{500};
   return p;
@@ -29,9 +30,9 @@ random::CounterStream backoffs() { return {1, kNode}; }
 int first_backoff() { return static_cast<int>(backoffs().below(0, ieee80211g().cw_min + 1)); }
 
 /// Stands for PHY and event queue: remembers what the station asks, and plays it on request.
-class Station final : public MacHost {
+class Station : public MacHost {
  public:
-  Station() : mac{parameters()}, dcf{kNode, mac, *this, backoffs()} {}
+  Station() : mac{parameters()}, dcf{kNode, mac, *this, rates, backoffs()} {}
 
   void transmit(std::uint32_t /*node*/, const MacFrame& frame, const Mode& mode,
                 std::uint32_t psdu_bytes) override {
@@ -79,15 +80,16 @@ class Station final : public MacHost {
     return static_cast<int>(slots);
   }
   void receive_ack() {
-    now = ends + mac.sifs + airtime(*mac.ack_mode, kAckBytes);
+    now = ends + mac.sifs + airtime(mac.answer_to(*mac.data_mode), kAckBytes);
     dcf.medium_busy(now - microseconds{46});
     dcf.reception_started(now - microseconds{30});
     dcf.received(now, {.kind = MacFrame::Kind::kAck, .sender = 1, .receiver = std::int32_t{kNode}},
-                 *mac.ack_mode);
+                 mac.answer_to(*mac.data_mode));
     dcf.medium_idle(now);
   }
 
   MacParameters mac;
+  ConstantRate rates{{.modes = {}, .required_sinr = {}, .first = mac.data_mode}};
   Dcf dcf;
   SimTime now{};
   SimTime ends{};
@@ -104,7 +106,7 @@ TEST_CASE("timing follows from slot, SIFS and the lowest basic rate") {
 
   CHECK(p.difs == microseconds{50});
   CHECK(p.eifs == microseconds{110});
-  CHECK(p.ack_timeout == microseconds{50});
+  CHECK(p.answer_timeout(*p.data_mode) == microseconds{50});
 }
 
 TEST_CASE("a frame that finds an idle medium goes out after DIFS, without backoff") {
@@ -172,6 +174,16 @@ TEST_CASE("after a reception that failed EIFS is waited, until one succeeds") {
   CHECK(station.timer(MacTimer::kAccess) == at(700 + 50 + 20 * slots));
 }
 
+TEST_CASE("EIFS begins when the medium is idle after the frame that failed, not before") {
+  Station station;
+  station.dcf.medium_busy(at(0));
+  station.enqueue(at(10), kGroup);
+  station.dcf.reception_failed(at(20));  // its SIGNAL field; the energy stays
+  station.dcf.medium_idle(at(500));
+
+  CHECK(station.timer(MacTimer::kAccess) == at(500 + 110 + 20 * first_backoff()));
+}
+
 TEST_CASE("the duration of a frame for others sets the NAV") {
   Station station;
   station.dcf.medium_busy(at(0));
@@ -220,13 +232,13 @@ TEST_CASE("an acknowledged frame is done at its first attempt") {
   station.fire(MacTimer::kAccess);
   CHECK(station.sent.duration == microseconds{60});  // SIFS and an ACK of 50 us
   station.end_transmission();
-  CHECK(station.timer(MacTimer::kAckTimeout) == station.ends + microseconds{50});
+  CHECK(station.timer(MacTimer::kAnswerTimeout) == station.ends + microseconds{50});
 
   station.receive_ack();
 
   CHECK(station.outcome == SendOutcome::kAcknowledged);
   CHECK(station.attempts == 1);
-  CHECK_FALSE(station.timer(MacTimer::kAckTimeout));
+  CHECK_FALSE(station.timer(MacTimer::kAnswerTimeout));
 }
 
 TEST_CASE("a missing ACK doubles the window up to its maximum; the seventh drops the frame") {
@@ -238,7 +250,7 @@ TEST_CASE("a missing ACK doubles the window up to its maximum; the seventh drops
     station.fire(MacTimer::kAccess);
     station.end_transmission();
     CHECK_FALSE(station.timer(MacTimer::kAccess));  // nothing else while an ACK may come
-    station.fire(MacTimer::kAckTimeout);
+    station.fire(MacTimer::kAnswerTimeout);
     if (attempt < 7) {
       CHECK_FALSE(station.outcome);
       CHECK(station.dcf.contention_window() == windows.at(static_cast<std::size_t>(attempt - 1)));
@@ -258,7 +270,7 @@ TEST_CASE("a retry keeps its sequence number and a new frame gets another") {
   station.fire(MacTimer::kAccess);
   const std::uint32_t first = station.sent.sequence;
   station.end_transmission();
-  station.fire(MacTimer::kAckTimeout);
+  station.fire(MacTimer::kAnswerTimeout);
   station.fire(MacTimer::kAccess);
   CHECK(station.sent.sequence == first);
   station.end_transmission();
@@ -277,12 +289,12 @@ TEST_CASE("an ACK whose reception has begun by the timeout is waited for") {
   station.dcf.medium_busy(ended + microseconds{14});
   station.dcf.reception_started(ended + microseconds{30});
 
-  station.fire(MacTimer::kAckTimeout);
+  station.fire(MacTimer::kAnswerTimeout);
   CHECK_FALSE(station.outcome);
   CHECK(station.dcf.contention_window() == 15);
   station.dcf.received(ended + microseconds{60},
                        {.kind = MacFrame::Kind::kAck, .sender = 1, .receiver = std::int32_t{kNode}},
-                       *station.mac.ack_mode);
+                       station.mac.answer_to(*station.mac.data_mode));
 
   CHECK(station.outcome == SendOutcome::kAcknowledged);
 }
@@ -332,6 +344,130 @@ TEST_CASE("a full queue and an expired frame are dropped with their causes") {
   CHECK(station.outcome == SendOutcome::kLifetime);
   CHECK(station.finished_frame == 2);
   CHECK(station.sent.frame == 3);
+}
+
+/// A station that sends RTS before every individually addressed frame.
+class AnnouncingStation : public Station {
+ public:
+  AnnouncingStation() { mac.rts_threshold_bytes = 0; }
+
+  /// The answer to what has just been sent, SIFS after it.
+  void receive_answer(MacFrame::Kind kind) {
+    now = ends + mac.sifs + airtime(mac.answer_to(*mac.rts_mode), kCtsBytes);
+    dcf.medium_busy(now - microseconds{46});
+    dcf.reception_started(now - microseconds{30});
+    dcf.received(now, {.kind = kind, .sender = 1, .receiver = std::int32_t{kNode}}, *mac.rts_mode);
+    dcf.medium_idle(now);
+  }
+};
+
+TEST_CASE("a frame above the threshold is sent SIFS after the CTS to its RTS") {
+  AnnouncingStation station;
+  station.enqueue(at(1000), 1);
+  station.fire(MacTimer::kAccess);
+  CHECK(station.sent.kind == MacFrame::Kind::kRts);
+  // 3 SIFS, CTS 50 us, 100 B of data 166 us, ACK 50 us
+  CHECK(station.sent.duration == microseconds{30 + 50 + 166 + 50});
+  station.end_transmission();
+  CHECK(station.timer(MacTimer::kAnswerTimeout) == station.ends + microseconds{50});
+
+  station.receive_answer(MacFrame::Kind::kCts);
+  CHECK_FALSE(station.timer(MacTimer::kAnswerTimeout));
+  CHECK_FALSE(station.timer(MacTimer::kAccess));
+  CHECK(station.timer(MacTimer::kResponse) == station.now + microseconds{10});
+  station.fire(MacTimer::kResponse);
+  CHECK(station.sent.kind == MacFrame::Kind::kData);
+  CHECK(station.sent.duration == microseconds{60});
+  station.end_transmission();
+  station.receive_answer(MacFrame::Kind::kAck);
+
+  CHECK(station.outcome == SendOutcome::kAcknowledged);
+}
+
+TEST_CASE("group frames and those below the threshold are sent without RTS") {
+  Station station;
+  station.mac.rts_threshold_bytes = 100;
+  station.enqueue(at(1000), 1);  // of 100 B
+  station.fire(MacTimer::kAccess);
+  CHECK(station.sent.kind == MacFrame::Kind::kData);
+
+  AnnouncingStation announcing;
+  announcing.enqueue(at(1000), kGroup);
+  announcing.fire(MacTimer::kAccess);
+  CHECK(announcing.sent.kind == MacFrame::Kind::kData);
+}
+
+TEST_CASE("missing CTS count against the short retry limit, missing ACKs after RTS the long one") {
+  AnnouncingStation without_cts;
+  without_cts.enqueue(at(1000), 1);
+  for (int attempt = 1; attempt <= 7; ++attempt) {
+    REQUIRE_FALSE(without_cts.outcome);
+    without_cts.fire(MacTimer::kAccess);
+    without_cts.end_transmission();
+    without_cts.fire(MacTimer::kAnswerTimeout);
+  }
+  CHECK(without_cts.outcome == SendOutcome::kRetryLimit);
+
+  AnnouncingStation without_ack;
+  without_ack.enqueue(at(1000), 1);
+  for (int attempt = 1; attempt <= 4; ++attempt) {
+    REQUIRE_FALSE(without_ack.outcome);
+    without_ack.fire(MacTimer::kAccess);
+    without_ack.end_transmission();
+    without_ack.receive_answer(MacFrame::Kind::kCts);
+    without_ack.fire(MacTimer::kResponse);
+    without_ack.end_transmission();
+    without_ack.fire(MacTimer::kAnswerTimeout);
+  }
+  CHECK(without_ack.outcome == SendOutcome::kRetryLimit);
+}
+
+TEST_CASE("an RTS is answered by a CTS for the rest of its time, unless the NAV is set") {
+  const MacFrame rts{.kind = MacFrame::Kind::kRts,
+                     .sender = 1,
+                     .receiver = std::int32_t{kNode},
+                     .duration = microseconds{500}};
+  Station station;
+  CHECK_FALSE(station.dcf.received(at(500), rts, *station.mac.rts_mode));
+  CHECK(station.timer(MacTimer::kResponse) == at(510));
+  station.fire(MacTimer::kResponse);
+  CHECK(station.sent.kind == MacFrame::Kind::kCts);
+  CHECK(station.sent.duration == microseconds{500 - 10 - 50});
+
+  Station reserved;
+  reserved.dcf.received(
+      at(400),
+      {.kind = MacFrame::Kind::kCts, .sender = 2, .receiver = 3, .duration = microseconds{300}},
+      *reserved.mac.rts_mode);
+  reserved.dcf.received(at(500), rts, *reserved.mac.rts_mode);
+  CHECK_FALSE(reserved.timer(MacTimer::kResponse));
+}
+
+TEST_CASE("the NAV of an RTS is taken back when nothing follows, and stays when something does") {
+  const MacFrame rts{
+      .kind = MacFrame::Kind::kRts, .sender = 1, .receiver = 2, .duration = microseconds{2'000}};
+  const auto access_after = [&](bool data_follows) {
+    Station station;
+    station.dcf.medium_busy(at(0));
+    station.enqueue(at(10), kGroup);
+    station.dcf.reception_started(at(20));
+    station.dcf.received(at(500), rts, *station.mac.rts_mode);
+    station.dcf.medium_idle(at(500));
+    // 2 SIFS, a CTS of 50 us, aRxPHYStartDelay of 20 us and 2 slots
+    CHECK(station.timer(MacTimer::kNavReset) == at(500 + 20 + 50 + 20 + 40));
+    if (data_follows) {
+      station.dcf.medium_busy(at(574));
+      station.dcf.reception_started(at(590));
+      CHECK_FALSE(station.timer(MacTimer::kNavReset));
+      station.dcf.medium_idle(at(600));
+    } else {
+      station.fire(MacTimer::kNavReset);
+    }
+    return station.timer(MacTimer::kAccess).value();
+  };
+
+  CHECK(access_after(true) == at(2'500 + 50 + 20 * first_backoff()));
+  CHECK(access_after(false) == at(630 + 50 + 20 * first_backoff()));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <utility>
 
 namespace cuscus::netsim {
 namespace {
@@ -137,6 +138,47 @@ TEST_CASE("interference that ends before the SIGNAL field does no harm") {
   bench.receiver.energy_ends(at(160), frame);
 
   CHECK(bench.receiver.finish(frame) == Receiver::End::kDecoded);
+}
+
+/// What becomes of a frame of -70 dBm when one of -58 dBm begins `later_us` after it.
+std::pair<Receiver::End, Receiver::End> with_stronger_frame(const ReceiverParameters& parameters,
+                                                            int later_us) {
+  Bench bench{parameters};
+  Arrival first = Bench::arrival(-70.0);
+  Arrival stronger = Bench::arrival(-58.0);
+  bench.receiver.begin(at(0), first);
+  bench.receiver.detect(at(4), first, Bench::timing(0));
+  if (later_us > 16) {
+    CHECK(bench.receiver.header(at(20), first) == Receiver::Header::kDecoded);
+  }
+  bench.receiver.begin(at(later_us), stronger);
+  bench.receiver.detect(at(later_us + 4), stronger, Bench::timing(later_us));
+  if (later_us <= 16) {
+    bench.receiver.header(at(20), first);
+  }
+  bench.receiver.header(at(later_us + 20), stronger);
+  bench.receiver.energy_ends(at(160), first);
+  const Receiver::End first_end = bench.receiver.finish(first);
+  bench.receiver.energy_ends(at(later_us + 160), stronger);
+  return {first_end, bench.receiver.finish(stronger)};
+}
+
+TEST_CASE(
+    "a stronger frame captures the receiver during the preamble, or at any time, if allowed") {
+  using End = Receiver::End;
+  ReceiverParameters none = standard_parameters();
+  ReceiverParameters preamble = none;
+  preamble.capture_in_preamble = {5.0};
+  ReceiverParameters any_time = preamble;
+  any_time.capture_in_frame = {10.0};
+  ReceiverParameters too_high = preamble;
+  too_high.capture_in_preamble = {13.0};  // the frames are 12 dB apart
+
+  CHECK(with_stronger_frame(none, 8) == std::pair{End::kNotMine, End::kNotMine});  // no SIGNAL
+  CHECK(with_stronger_frame(preamble, 8) == std::pair{End::kNotMine, End::kDecoded});
+  CHECK(with_stronger_frame(too_high, 8).second == End::kNotMine);
+  CHECK(with_stronger_frame(preamble, 60) == std::pair{End::kFailed, End::kNotMine});
+  CHECK(with_stronger_frame(any_time, 60) == std::pair{End::kNotMine, End::kDecoded});
 }
 
 TEST_CASE("a node that transmits receives nothing") {
