@@ -279,4 +279,16 @@ void ObjectReader::finish() {
   }
 }
 
+bool is_none(const nlohmann::json* value, const std::string& path, const std::string& otherwise,
+             Problems& problems) {
+  if (value == nullptr || !value->is_string()) {
+    return false;
+  }
+  if (*value != "none") {
+    problems.add(path,
+                 shown(*value) + " is not known; allowed: none, or an object with " + otherwise);
+  }
+  return true;
+}
+
 }  // namespace cuscus::scenario

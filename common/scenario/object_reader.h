@@ -123,6 +123,10 @@ class ObjectReader {
   std::vector<std::string> known_;
 };
 
+/// Whether `value` is the text "none"; any other text is a problem, and counts as none.
+[[nodiscard]] bool is_none(const nlohmann::json* value, const std::string& path,
+                           const std::string& otherwise, Problems& problems);
+
 /// Reads the quantity `value` at `path`, or gives `fallback` and adds a problem.
 [[nodiscard]] double read_quantity(const nlohmann::json& value, const std::string& path,
                                    double fallback, const QuantityRange& range, Problems& problems);

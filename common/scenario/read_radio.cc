@@ -77,113 +77,6 @@ std::vector<std::uint32_t> read_basic_rates(ObjectReader& reader,
   return rates;
 }
 
-Propagation read_propagation(const json* value, const std::string& path, Problems& problems) {
-  ObjectReader reader{value, path, problems};
-  switch (reader.choice_index("model", {"friis", "log-distance", "paper-eq1", "two-ray"})) {
-    case 1: {
-      LogDistancePropagation model;
-      model.exponent = reader.number("exponent", model.exponent, {0.0, 10.0});
-      const json* reference = reader.child("reference_loss");
-      if (reference != nullptr && *reference != "free-space") {
-        model.reference_loss =
-            Decibel{read_quantity(*reference, reader.path_of("reference_loss"), 40.0,
-                                  {kPowerRatio, "0.01 dB", "200 dB"}, problems)};
-      }
-      reader.finish();
-      return model;
-    }
-    case 2: {
-      PaperPropagation model;
-      model.alpha = reader.number("alpha", model.alpha, {0.0, 100.0});
-      model.chi_dB2 = reader.quantity("chi", model.chi_dB2, {kVariance, "0 dB2", "1000 dB2"});
-      reader.finish();
-      return model;
-    }
-    case 3: {
-      TwoRayPropagation model;
-      model.ground = reader.choice("ground", model.ground, kGroundNames);
-      model.polarisation = reader.choice("polarisation", model.polarisation, kPolarisationNames);
-      model.roughness_m = reader.quantity("roughness", model.roughness_m, {kLength, "0 m", "10 m"});
-      reader.finish();
-      return model;
-    }
-    default:
-      if (reader.has("model") || value == nullptr || !value->is_object()) {
-        reader.finish();
-      } else {
-        reader.missing("model", "friis, log-distance, paper-eq1, two-ray");
-      }
-      return FriisPropagation{};
-  }
-}
-
-/// Whether `value` is the text "none"; any other text is a problem, and counts as none.
-bool is_none(const json* value, const std::string& path, const std::string& otherwise,
-             Problems& problems) {
-  if (value == nullptr || !value->is_string()) {
-    return false;
-  }
-  if (*value != "none") {
-    problems.add(path,
-                 shown(*value) + " is not known; allowed: none, or an object with " + otherwise);
-  }
-  return true;
-}
-
-std::optional<Shadowing> read_shadowing(const json* value, const std::string& path,
-                                        Problems& problems) {
-  if (value == nullptr || is_none(value, path, "deviation and decorrelation", problems)) {
-    return std::nullopt;
-  }
-  Shadowing shadowing;
-  ObjectReader reader{value, path, problems};
-  shadowing.deviation_dB =
-      reader.quantity("deviation", shadowing.deviation_dB, {kPowerRatio, "0.01 dB", "30 dB"});
-  shadowing.decorrelation_m =
-      reader.quantity("decorrelation", shadowing.decorrelation_m, {kLength, "0.1 m", "10 km"});
-  reader.finish();
-  return shadowing;
-}
-
-Fading read_fading(const json* value, const std::string& path, Problems& problems) {
-  if (value == nullptr || is_none(value, path, "model", problems)) {
-    return NoFading{};
-  }
-  ObjectReader reader{value, path, problems};
-  const QuantityRange k_range{kPowerRatio, "-30 dB", "50 dB"};
-  const QuantityRange doppler_range{kFrequency, "0 Hz", "1 kHz"};
-  RiceFading rice;
-  switch (reader.choice_index("model", {"rice", "rayleigh", "nakagami"})) {
-    case 0:
-      rice.k_factor = Decibel{reader.quantity("k_factor", rice.k_factor->value, k_range)};
-      rice.k_factor_overhead.value =
-          reader.quantity("k_factor_overhead", rice.k_factor_overhead.value, k_range);
-      rice.residual_doppler_Hz =
-          reader.quantity("residual_doppler", rice.residual_doppler_Hz, doppler_range);
-      reader.finish();
-      return rice;
-    case 1:
-      rice.k_factor.reset();
-      rice.residual_doppler_Hz =
-          reader.quantity("residual_doppler", rice.residual_doppler_Hz, doppler_range);
-      reader.finish();
-      return rice;
-    case 2: {
-      NakagamiFading nakagami;
-      nakagami.m = reader.number("m", nakagami.m, {0.5, 1000.0});
-      reader.finish();
-      return nakagami;
-    }
-    default:
-      if (!reader.has("model") && value->is_object()) {
-        reader.missing("model", "rice, rayleigh, nakagami");
-      } else {
-        reader.finish();
-      }
-      return NoFading{};
-  }
-}
-
 std::optional<PreambleDetection> read_detection(const json* value, const std::string& path,
                                                 Problems& problems) {
   if (is_none(value, path, "minimum_power and minimum_sinr", problems)) {
@@ -294,6 +187,11 @@ Radio read_radio(const json* value, Problems& problems) {
   radio.basic_rates_kbps = read_basic_rates(reader, radio.basic_rates_kbps, radio.standard);
   radio.control_answer = reader.choice("control_answer", radio.control_answer, kControlAnswerNames);
   radio.dsss_preamble = reader.choice("preamble", radio.dsss_preamble, kDsssPreambleNames);
+  if (radio.dsss_preamble == DsssPreamble::kShort && rates_kbps(radio.standard).front() != 1000) {
+    reader.problem("preamble", "\"short\" is of DSSS and CCK rates, which " +
+                                   std::string{name_of(kRadioStandardNames, radio.standard)} +
+                                   " does not have; allowed: long");
+  }
   radio.channel_frequency_hz = reader.quantity("channel_frequency", radio.channel_frequency_hz,
                                                {kFrequency, "100 MHz", "10 GHz"});
   radio.tx_power.value =

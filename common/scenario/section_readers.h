@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/scenario/object_reader.h"
@@ -12,6 +14,12 @@
 namespace cuscus::scenario {
 
 [[nodiscard]] Radio read_radio(const nlohmann::json* value, Problems& problems);
+[[nodiscard]] Propagation read_propagation(const nlohmann::json* value, const std::string& path,
+                                           Problems& problems);
+[[nodiscard]] std::optional<Shadowing> read_shadowing(const nlohmann::json* value,
+                                                      const std::string& path, Problems& problems);
+[[nodiscard]] Fading read_fading(const nlohmann::json* value, const std::string& path,
+                                 Problems& problems);
 [[nodiscard]] Network read_network(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] World read_world(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] GroundStation read_ground_station(const nlohmann::json* value, Problems& problems);

@@ -78,6 +78,7 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
       receiver_model_{receiver_parameters(parameters, *standard_), *errors_},
       channel_{parameters.channel},
       floor_mw_{receiver_model_.noise_mw() / parameters.arrival_floor_below_noise.ratio()},
+      reach_floor_mw_{floor_mw_ / channel_.greatest_frame_gain().ratio()},
       shortest_airtime_{shortest_airtime(*standard_)},
       radios_{parameters.nodes},
       positions_{&positions},
@@ -85,6 +86,7 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
   require(!radios_.empty() && radios_.size() <= 65'535, "there must be 1 to 65535 nodes");
   require(positions.positions(SimTime{}).size() >= radios_.size(), "a node has no position");
   RateSetting rates = rate_setting(*standard_, *mac_.data_mode, *errors_);
+  rates.attempts = std::min(mac_.short_retry_limit, mac_.long_retry_limit);
   stations_.reserve(radios_.size());
   for (std::uint32_t node = 0; node < radios_.size(); ++node) {
     require(std::isfinite(radios_[node].tx_power.value) &&

@@ -223,6 +223,7 @@ class Air final : private MacHost {
   ReceiverModel receiver_model_;
   Channel channel_;
   double floor_mw_;
+  double reach_floor_mw_;  ///< What is below on average is below the floor in every frame.
   Duration shortest_airtime_;
   std::vector<AirNode> radios_;
   PositionSource* positions_;

@@ -80,7 +80,7 @@ void Air::spread(Transmission& transmission, std::uint32_t sender) {
   transmission.arrivals.clear();
   for (const Reach& reach : station.reach) {
     double power_mw = reach.received_mw;
-    if (channel_.varies_per_frame()) {
+    if (positions != nullptr && power_mw >= reach_floor_mw_) {
       const Decibel variation =
           channel_.frame_loss({.link = Link::between(sender, (*positions)[sender], reach.receiver,
                                                      (*positions)[reach.receiver]),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string_view>
 
@@ -157,6 +158,13 @@ Decibel Channel::static_loss(const Link& link) const {
   const Decibel basic =
       path_loss_->loss({.p_WT = link.p_WL, .p_WR = link.p_WH, .carrier_hz = carrier_hz_});
   return shadowing_ ? basic + shadowing_->loss(link) : basic;
+}
+
+Decibel Channel::greatest_frame_gain() const {
+  if (variation_) {
+    return {std::numeric_limits<double>::infinity()};
+  }
+  return fading_ ? fading_->greatest_gain() : Decibel{0.0};
 }
 
 Decibel Channel::frame_loss(const FrameOnLink& frame) const {

@@ -75,6 +75,8 @@ class Channel {
     return variation_ != nullptr || fading_ != nullptr;
   }
   [[nodiscard]] Decibel frame_loss(const FrameOnLink& frame) const;
+  /// frame_loss() is never below minus this; +inf: there is no bound.
+  [[nodiscard]] Decibel greatest_frame_gain() const;
 
  private:
   double carrier_hz_;

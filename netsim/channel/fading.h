@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "common/random/counter_stream.h"
 #include "common/units/decibel.h"
@@ -17,6 +18,8 @@ class FadingModel {
 
   /// A loss; negative where waves add up.
   [[nodiscard]] virtual Decibel loss(const FrameOnLink& frame) const = 0;
+  /// No frame ever gains more than this; +inf: there is no bound.
+  [[nodiscard]] virtual Decibel greatest_gain() const = 0;
 };
 
 /// Rice and Rayleigh fading as a sum of plane waves at both ends of the link,
@@ -38,7 +41,7 @@ class FadingModel {
 /// as in A. S. Akki, F. Haber, IEEE Trans. Veh. Technol. 35(1), 1986. K grows from the horizon to
 /// the zenith as K(θ) = K₀ (K₉₀/K₀)^(2θ/π), θ the elevation of one end seen from the other
 /// [M. M. Azari et al., IEEE Trans. Commun. 66(1), 2018].
-/// With N = 16 waves deep fades are rarer than in theory: P(< -10 dB) of Rayleigh is 0.092 instead
+/// With N = 16 waves deep fades are rarer than in theory: P(< -10 dB) of Rayleigh is 0.093 instead
 /// of 0.095, and the power's correlation is lower by up to 1/16. Checked in
 /// tests/validation/netsim/fading_test.cc.
 class RiceFading final : public FadingModel {
@@ -54,6 +57,8 @@ class RiceFading final : public FadingModel {
   explicit RiceFading(const Parameters& parameters);
 
   [[nodiscard]] Decibel loss(const FrameOnLink& frame) const override;
+  /// All waves in phase: |h|² ≤ (√K + √N)² / (K + 1) ≤ N + 1.
+  [[nodiscard]] Decibel greatest_gain() const override { return Decibel::from_ratio(kWaves + 1.0); }
 
   /// Power ratio of the direct wave to the others at an elevation, 0 ... π/2.
   [[nodiscard]] double k_factor(double elevation_rad) const;
@@ -83,6 +88,9 @@ class NakagamiFading final : public FadingModel {
   NakagamiFading(std::uint64_t seed, double m) : seed_{seed}, m_{m} {}
 
   [[nodiscard]] Decibel loss(const FrameOnLink& frame) const override;
+  [[nodiscard]] Decibel greatest_gain() const override {
+    return {std::numeric_limits<double>::infinity()};
+  }
 
  private:
   std::uint64_t seed_;

@@ -23,7 +23,7 @@ enum class Polarisation : std::uint8_t { kVertical, kHorizontal };
 /// Sources: T. S. Rappaport, "Wireless Communications", 2nd ed., 2002, sections 4.5 and 4.6; ground
 /// constants of Recommendation ITU-R P.527 in the form of P.2040-3, table 3 (1 to 10 GHz);
 /// roughness: W. S. Ament, Proc. IRE 41(1), 1953. Between UAVs the lobes matter, several dB to
-/// either side of free space; the fall with d⁻⁴ begins beyond 4 h₁h₂/λ · π only, kilometres away.
+/// either side of free space; the fall with d⁻⁴ begins beyond 4π h₁h₂/λ only, kilometres away.
 /// Antennas nearer than 0.1 m to the ground are taken to be there: at the ground itself the rays
 /// would cancel.
 class TwoRay final : public PathLossModel {

@@ -32,10 +32,12 @@ double dqpsk(double bit_snr) {
   const double ab = std::sqrt(a2 * b2);
   double sum = 0.5 * std::cyl_bessel_i(0.0, ab);
   double power = 1.0;
-  constexpr int kTerms = 60;  // ratio^60 < 10^-22
-  for (int k = 1; k < kTerms; ++k) {
+  constexpr double kNegligible = 1e-17;
+  double term = sum;
+  for (int k = 1; term > kNegligible * sum; ++k) {
     power *= ratio;
-    sum += power * std::cyl_bessel_i(static_cast<double>(k), ab);
+    term = power * std::cyl_bessel_i(static_cast<double>(k), ab);
+    sum += term;
   }
   return std::min(0.5, std::exp(-0.5 * (a2 + b2)) * sum);
 }

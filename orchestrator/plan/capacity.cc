@@ -57,10 +57,24 @@ double psdu_airtime_s(const scenario::Radio& radio, std::uint32_t psdu_bytes,
   return (scale * (20.0 + 4.0 * symbols) + extension) * 1e-6;
 }
 
+std::uint32_t psdu_bytes(std::uint32_t ip_bytes) { return 24 + 8 + ip_bytes + 4; }
+
+/// RTS and CTS at the lowest basic rate, with SIFS after each, before a frame above the threshold.
+double announcement_s(const scenario::Radio& radio, std::uint32_t ip_bytes) {
+  constexpr std::uint32_t kRts_bytes = 20;
+  constexpr std::uint32_t kCts_bytes = 14;
+  if (!radio.rts_threshold_bytes || psdu_bytes(ip_bytes) <= *radio.rts_threshold_bytes) {
+    return 0.0;
+  }
+  const std::uint32_t rate_kbps = radio.basic_rates_kbps.front();
+  return psdu_airtime_s(radio, kRts_bytes, rate_kbps) +
+         psdu_airtime_s(radio, kCts_bytes, rate_kbps) + 2.0 * sifs_s(radio.standard);
+}
+
 }  // namespace
 
 double airtime_s(const scenario::Radio& radio, std::uint32_t ip_bytes, std::uint32_t rate_kbps) {
-  return psdu_airtime_s(radio, 24 + 8 + ip_bytes + 4, rate_kbps);
+  return psdu_airtime_s(radio, psdu_bytes(ip_bytes), rate_kbps);
 }
 
 CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
@@ -69,6 +83,8 @@ CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
   constexpr std::uint32_t kAck_bytes = 14;
   const double ack_s =
       sifs_s(radio.standard) + psdu_airtime_s(radio, kAck_bytes, radio.basic_rates_kbps.front());
+  const double telemetry_s = airtime_s(radio, kTelemetry_bytes, radio.data_rate_kbps) + ack_s +
+                             announcement_s(radio, kTelemetry_bytes);
   CapacityEstimate estimate;
   double loops_per_s = 0.0;
   double vehicles = 0.0;
@@ -90,9 +106,7 @@ CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
       const double reports_per_s = group.count / seconds(group.telemetry_period);
       estimate.frames_per_s += reports_per_s;
       estimate.copies_per_s += reports_per_s;
-      estimate.air_busy_fraction +=
-          reports_per_s *
-          (contention_s(radio) + ack_s + airtime_s(radio, kTelemetry_bytes, radio.data_rate_kbps));
+      estimate.air_busy_fraction += reports_per_s * (contention_s(radio) + telemetry_s);
     }
   }
   const double copy_s = scenario.network.attach == Attach::kDirect ? kDirectCopy_s : kBridgeCopy_s;

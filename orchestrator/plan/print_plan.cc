@@ -70,6 +70,21 @@ void append_nodes(const Plan& plan, std::string& out) {
   }
 }
 
+/// Propagation and what else is not as in the default radio.
+std::string radio_terms(const proto::RadioConfiguration& radio) {
+  std::string out = radio.propagation().model();
+  if (radio.propagation().shadowing_db() > 0.0) {
+    out += fmt::format(", shadowing {} dB", radio.propagation().shadowing_db());
+  }
+  if (radio.propagation().fading() != "none") {
+    out += ", fading " + radio.propagation().fading();
+  }
+  if (radio.rate_control() != "constant") {
+    out += ", rate control " + radio.rate_control();
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string name_of(NodeRole role) {
@@ -117,7 +132,10 @@ Json to_json(const Plan& plan) {
             {"data_rate_kbps", plan.radio.data_rate_kbps()},
             {"group_rate_kbps", plan.radio.group_rate_kbps()},
             {"carrier_hz", plan.radio.carrier_hz()},
-            {"propagation", plan.radio.propagation().model()}}},
+            {"rate_control", plan.radio.rate_control()},
+            {"propagation", plan.radio.propagation().model()},
+            {"shadowing_db", plan.radio.propagation().shadowing_db()},
+            {"fading", plan.radio.propagation().fading()}}},
           {"capacity",
            {{"frames_per_s", capacity.frames_per_s},
             {"copies_per_s", capacity.copies_per_s},
@@ -138,7 +156,7 @@ std::string to_text(const Plan& plan) {
                      scenario::format_quantity(plan.radio.data_rate_kbps(), scenario::kBitRate),
                      scenario::format_quantity(plan.radio.group_rate_kbps(), scenario::kBitRate),
                      scenario::format_quantity(plan.radio.carrier_hz(), scenario::kFrequency),
-                     plan.radio.propagation().model());
+                     radio_terms(plan.radio));
   out += fmt::format("  network  {}, attach {}, {}\n", subnet_text(plan.subnet),
                      name_of(scenario::kAttachNames, plan.attach),
                      plan.static_neighbours ? "static neighbours" : "ARP");

@@ -278,6 +278,28 @@ TEST_CASE("Time on air is the standard's") {
         Approx(488e-6));
 }
 
+TEST_CASE("The estimate counts RTS and CTS before telemetry above the threshold") {
+  const auto busy = [](const std::string& radio) {
+    return plan_of(R"({"name": "t", "fleet": [{"count": 10}], "radio": )" + radio + "}")
+        .capacity.air_busy_fraction;
+  };
+
+  // Five reports per second and UAV; RTS 58 us, CTS 50 us at 6 Mb/s, and two SIFS.
+  CHECK(busy(R"({"rts_threshold": 0})") - busy("{}") == Approx(50.0 * (58.0 + 50.0 + 20.0) * 1e-6));
+  CHECK(busy(R"({"rts_threshold": 1000})") == busy("{}"));
+}
+
+TEST_CASE("The plan's text says what is not as in the default radio") {
+  const auto text = [](const std::string& radio) {
+    return to_text(plan_of(R"({"name": "t", "fleet": [{}], "radio": )" + radio + "}"));
+  };
+
+  CHECK_THAT(text(R"({"shadowing": {"deviation": "5 dB"}, "fading": {"model": "nakagami"},
+                      "rate_control": "aarf"})"),
+             Catch::Contains("friis, shadowing 5 dB, fading nakagami, rate control aarf\n"));
+  CHECK_THAT(text("{}"), Catch::Contains("friis\n"));
+}
+
 TEST_CASE("The estimate counts beacons at every receiver and telemetry at one") {
   const Plan plan = make_plan(scenario::load_scenario(kFolder / "default.json"));
 

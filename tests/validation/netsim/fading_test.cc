@@ -79,6 +79,25 @@ TEST_CASE("Rayleigh powers are exponentially distributed, with mean 1") {
   CHECK(mean == Approx(1.0).margin(0.07));  // three standard errors of 1/sqrt(2000)
 }
 
+TEST_CASE(
+    "deep fades of sixteen waves are as frequent as documented, and none is stronger than all") {
+  double deep = 0.0;
+  double strongest = 0.0;
+  constexpr int kSeeds = 200;
+  constexpr int kPlaces = 500;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const RiceFading fading = rice(kRayleigh_db, seed);
+    for (int place = 0; place < kPlaces; ++place) {
+      const double x = power(fading, frame_at({0.37 * place, 0.11 * place, 12.0}));
+      deep += x < 0.1 ? 1.0 : 0.0;
+      strongest = std::max(strongest, x);
+    }
+  }
+  // Theory has 1 - exp(-0.1) = 0.0952. Standard error of 10^5 correlated places: about 0.001.
+  CHECK(deep / (kSeeds * kPlaces) == Approx(0.093).margin(0.004));
+  CHECK(strongest <= rice(kRayleigh_db, 1).greatest_gain().ratio());
+}
+
 TEST_CASE("Rice powers follow the distribution of their K") {
   const double k_db = GENERATE(0.0, 6.0, 12.0);
   const double k = Decibel{k_db}.ratio();

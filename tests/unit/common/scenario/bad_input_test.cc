@@ -55,6 +55,7 @@ const std::vector<BadInput> kTable{
     {R"({"radio": {"basic_rates": ["6 Mb/s", "6000 kb/s"]}})", "/radio/basic_rates/1", "is given twice", false},
     {R"({"radio": {"standard": "802.11n"}})", "/radio/standard", "is not known; did you mean \"802.11a\"? allowed: 802.11a, 802.11b, 802.11g, 802.11p", true},
     {R"({"radio": {"standard": "802.11p", "data_rate": "54 Mb/s"}})", "/radio/data_rate", "is not a rate of 802.11p; allowed: 3, 4.5, 6, 9, 12, 18, 24, 27 Mb/s", false},
+    {R"({"radio": {"standard": "802.11a", "preamble": "short"}})", "/radio/preamble", "\"short\" is of DSSS and CCK rates, which 802.11a does not have; allowed: long", false},
     {R"({"radio": {"rts_threshold": "off"}})", "/radio/rts_threshold", "allowed: none, or a whole number of bytes 0 ... 65535", true},
     {R"({"radio": {"rts_threshold": 70000}})", "/radio/rts_threshold", "allowed: a whole number 0 ... 65535", true},
     {R"({"radio": {"shadowing": "some"}})", "/radio/shadowing", "allowed: none, or an object with deviation and decorrelation", true},

@@ -70,6 +70,21 @@ TEST_CASE("a millimetre changes a link by little, a wavelength by much") {
   CHECK(most_db > 3.0);
 }
 
+TEST_CASE("no frame gains more than a channel says") {
+  ChannelParameters parameters = full_channel("rice");
+  const Channel rice{parameters};
+  CHECK(rice.greatest_frame_gain().value == Approx(12.3).margin(0.01));  // 17
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    const Link link = Link::between(0, {0.0, 0.0, 10.0}, 1, {50.0 + 0.013 * i, 0.0, 10.0});
+    REQUIRE(-rice.frame_loss(over(link)) <= rice.greatest_frame_gain());
+  }
+  CHECK(Channel{full_channel("none")}.greatest_frame_gain() == Decibel{0.0});
+  CHECK(std::isinf(Channel{full_channel("nakagami")}.greatest_frame_gain().value));
+  parameters.model = "paper-eq1";
+  parameters.chi_db2 = 1.0;
+  CHECK(std::isinf(Channel{parameters}.greatest_frame_gain().value));
+}
+
 TEST_CASE("the direct wave is stronger overhead") {
   const RiceFading fading{{.k_at_horizon = {5.0}, .k_at_zenith = {15.0}}};
   constexpr double kUp_rad = 1.5707963267948966;

@@ -89,7 +89,7 @@ class Station : public MacHost {
   }
 
   MacParameters mac;
-  ConstantRate rates{{.modes = {}, .required_sinr = {}, .first = mac.data_mode}};
+  ConstantRate rates{{.modes = {}, .required_snr = {}, .first = mac.data_mode}};
   Dcf dcf;
   SimTime now{};
   SimTime ends{};
@@ -107,6 +107,18 @@ TEST_CASE("timing follows from slot, SIFS and the lowest basic rate") {
   CHECK(p.difs == microseconds{50});
   CHECK(p.eifs == microseconds{110});
   CHECK(p.answer_timeout(*p.data_mode) == microseconds{50});
+}
+
+TEST_CASE("EIFS leaves room for an ACK at 1 Mb/s where anything is sent by DSSS") {
+  const auto eifs = [](std::uint32_t data_kbps, std::uint32_t group_kbps,
+                       const std::array<std::uint32_t, 1>& basic) {
+    return MacParameters::from(ieee80211g(), microseconds{20}, data_kbps, group_kbps, basic).eifs;
+  };
+  // SIFS, an ACK of 304 us (OFDM: 50 us), DIFS
+  CHECK(eifs(54'000, 24'000, {12'000}) == microseconds{10 + 50 + 50});
+  CHECK(eifs(54'000, 1'000, {12'000}) == microseconds{10 + 304 + 50});
+  CHECK(eifs(11'000, 6'000, {6'000}) == microseconds{10 + 304 + 50});
+  CHECK(eifs(54'000, 6'000, {2'000}) == microseconds{10 + 304 + 50});
 }
 
 TEST_CASE("a frame that finds an idle medium goes out after DIFS, without backoff") {

@@ -4,6 +4,8 @@
 #include <map>
 
 #include "common/units/decibel.h"
+#include "netsim/mac/aarf_rate.h"
+#include "netsim/mac/minstrel_rate.h"
 
 namespace cuscus::netsim {
 namespace {
@@ -135,9 +137,32 @@ TEST_CASE("Minstrel prefers an unreliable rate that is fast enough") {
   CHECK(tried.at(54'000) > 10'000 * 0.7);
 }
 
-TEST_CASE("Minstrel ends every frame at the lowest rate") {
-  MinstrelRate rates{from_rate(54'000)};
-  CHECK(rates.mode({}, kPeer, 100).rate_kbps == 6'000);
+TEST_CASE("Minstrel comes to the lowest rate before the retry limit ends a frame") {
+  // At one half no rate is settled: as many attempts as fit into 6 ms would be 28 at 54 Mb/s.
+  const double success = GENERATE(0.0, 0.5, 1.0);
+  const std::uint32_t limit = GENERATE(4U, 7U, 20U);
+  RateSetting setting = from_rate(54'000);
+  setting.attempts = limit;
+  MinstrelRate rates{setting};
+  tried_rates(rates,
+              {{6'000, 1.0},
+               {9'000, success},
+               {12'000, success},
+               {18'000, success},
+               {24'000, success},
+               {36'000, success},
+               {48'000, success},
+               {54'000, success}},
+              2'000);
+  CAPTURE(success, limit);
+  const SimTime later = sim_time(10'000'000'000);
+  for (int frame = 0; frame < 50; ++frame) {
+    std::uint32_t last_kbps = 0;
+    for (std::uint32_t attempt = 0; attempt < limit; ++attempt) {
+      last_kbps = rates.mode(later, kPeer, attempt).rate_kbps;
+    }
+    CHECK(last_kbps == 6'000);
+  }
 }
 
 TEST_CASE("an unknown rate control is refused with what exists") {

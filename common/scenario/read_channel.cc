@@ -1,0 +1,104 @@
+#include <optional>
+#include <string>
+
+#include "common/scenario/section_readers.h"
+
+namespace cuscus::scenario {
+
+using nlohmann::json;
+
+Propagation read_propagation(const json* value, const std::string& path, Problems& problems) {
+  ObjectReader reader{value, path, problems};
+  switch (reader.choice_index("model", {"friis", "log-distance", "paper-eq1", "two-ray"})) {
+    case 1: {
+      LogDistancePropagation model;
+      model.exponent = reader.number("exponent", model.exponent, {0.0, 10.0});
+      const json* reference = reader.child("reference_loss");
+      if (reference != nullptr && *reference != "free-space") {
+        model.reference_loss =
+            Decibel{read_quantity(*reference, reader.path_of("reference_loss"), 40.0,
+                                  {kPowerRatio, "0.01 dB", "200 dB"}, problems)};
+      }
+      reader.finish();
+      return model;
+    }
+    case 2: {
+      PaperPropagation model;
+      model.alpha = reader.number("alpha", model.alpha, {0.0, 100.0});
+      model.chi_dB2 = reader.quantity("chi", model.chi_dB2, {kVariance, "0 dB2", "1000 dB2"});
+      reader.finish();
+      return model;
+    }
+    case 3: {
+      TwoRayPropagation model;
+      model.ground = reader.choice("ground", model.ground, kGroundNames);
+      model.polarisation = reader.choice("polarisation", model.polarisation, kPolarisationNames);
+      model.roughness_m = reader.quantity("roughness", model.roughness_m, {kLength, "0 m", "10 m"});
+      reader.finish();
+      return model;
+    }
+    default:
+      if (reader.has("model") || value == nullptr || !value->is_object()) {
+        reader.finish();
+      } else {
+        reader.missing("model", "friis, log-distance, paper-eq1, two-ray");
+      }
+      return FriisPropagation{};
+  }
+}
+
+std::optional<Shadowing> read_shadowing(const json* value, const std::string& path,
+                                        Problems& problems) {
+  if (value == nullptr || is_none(value, path, "deviation and decorrelation", problems)) {
+    return std::nullopt;
+  }
+  Shadowing shadowing;
+  ObjectReader reader{value, path, problems};
+  shadowing.deviation_dB =
+      reader.quantity("deviation", shadowing.deviation_dB, {kPowerRatio, "0.01 dB", "30 dB"});
+  shadowing.decorrelation_m =
+      reader.quantity("decorrelation", shadowing.decorrelation_m, {kLength, "0.1 m", "10 km"});
+  reader.finish();
+  return shadowing;
+}
+
+Fading read_fading(const json* value, const std::string& path, Problems& problems) {
+  if (value == nullptr || is_none(value, path, "model", problems)) {
+    return NoFading{};
+  }
+  ObjectReader reader{value, path, problems};
+  const QuantityRange k_range{kPowerRatio, "-30 dB", "50 dB"};
+  const QuantityRange doppler_range{kFrequency, "0 Hz", "1 kHz"};
+  RiceFading rice;
+  switch (reader.choice_index("model", {"rice", "rayleigh", "nakagami"})) {
+    case 0:
+      rice.k_factor = Decibel{reader.quantity("k_factor", rice.k_factor->value, k_range)};
+      rice.k_factor_overhead.value =
+          reader.quantity("k_factor_overhead", rice.k_factor_overhead.value, k_range);
+      rice.residual_doppler_Hz =
+          reader.quantity("residual_doppler", rice.residual_doppler_Hz, doppler_range);
+      reader.finish();
+      return rice;
+    case 1:
+      rice.k_factor.reset();
+      rice.residual_doppler_Hz =
+          reader.quantity("residual_doppler", rice.residual_doppler_Hz, doppler_range);
+      reader.finish();
+      return rice;
+    case 2: {
+      NakagamiFading nakagami;
+      nakagami.m = reader.number("m", nakagami.m, {0.5, 1000.0});
+      reader.finish();
+      return nakagami;
+    }
+    default:
+      if (!reader.has("model") && value->is_object()) {
+        reader.missing("model", "rice, rayleigh, nakagami");
+      } else {
+        reader.finish();
+      }
+      return NoFading{};
+  }
+}
+
+}  // namespace cuscus::scenario

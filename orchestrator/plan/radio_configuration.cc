@@ -1,0 +1,96 @@
+#include "orchestrator/plan/radio_configuration.h"
+
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include "common/scenario/names.h"
+
+namespace cuscus::orchestrator {
+namespace {
+
+void add_fading(const scenario::Fading& from, proto::PropagationConfiguration& result) {
+  if (const auto* rice = std::get_if<scenario::RiceFading>(&from)) {
+    const Decibel none{-std::numeric_limits<double>::infinity()};
+    result.set_fading("rice");
+    result.set_k_factor_db(rice->k_factor.value_or(none).value);
+    result.set_k_factor_overhead_db((rice->k_factor ? rice->k_factor_overhead : none).value);
+    result.set_residual_doppler_hz(rice->residual_doppler_Hz);
+  } else if (const auto* nakagami = std::get_if<scenario::NakagamiFading>(&from)) {
+    result.set_fading("nakagami");
+    result.set_nakagami_m(nakagami->m);
+  } else {
+    result.set_fading("none");
+  }
+}
+
+proto::PropagationConfiguration propagation_of(const scenario::Radio& radio) {
+  proto::PropagationConfiguration result;
+  const scenario::Propagation& from = radio.propagation;
+  if (const auto* model = std::get_if<scenario::LogDistancePropagation>(&from)) {
+    result.set_model("log-distance");
+    result.set_exponent(model->exponent);
+    result.set_reference_loss_db(model->reference_loss ? model->reference_loss->value : 0.0);
+  } else if (const auto* paper = std::get_if<scenario::PaperPropagation>(&from)) {
+    result.set_model("paper-eq1");
+    result.set_alpha(paper->alpha);
+    result.set_chi_db2(paper->chi_dB2);
+  } else if (const auto* two_ray = std::get_if<scenario::TwoRayPropagation>(&from)) {
+    result.set_model("two-ray");
+    result.set_ground(name_of(scenario::kGroundNames, two_ray->ground));
+    result.set_horizontal_polarisation(two_ray->polarisation ==
+                                       scenario::Polarisation::kHorizontal);
+    result.set_roughness_m(two_ray->roughness_m);
+  } else {
+    result.set_model("friis");
+  }
+  if (const auto& shadowing = radio.shadowing) {
+    result.set_shadowing_db(shadowing->deviation_dB);
+    result.set_shadowing_decorrelation_m(shadowing->decorrelation_m);
+  }
+  add_fading(radio.fading, result);
+  return result;
+}
+
+}  // namespace
+
+proto::RadioConfiguration radio_configuration(const scenario::Radio& from, std::uint64_t seed) {
+  proto::RadioConfiguration radio;
+  radio.set_seed(seed);
+  radio.set_standard(name_of(scenario::kRadioStandardNames, from.standard));
+  radio.set_data_rate_kbps(from.data_rate_kbps);
+  radio.set_group_rate_kbps(from.group_rate_kbps);
+  radio.set_rate_control(name_of(scenario::kRateControlNames, from.rate_control));
+  for (const std::uint32_t rate_kbps : from.basic_rates_kbps) {
+    radio.add_basic_rates_kbps(rate_kbps);
+  }
+  radio.set_answer_in_any_class(from.control_answer == scenario::ControlAnswer::kAnyClass);
+  radio.set_short_preamble(from.dsss_preamble == scenario::DsssPreamble::kShort);
+  radio.set_carrier_hz(from.channel_frequency_hz);
+  radio.set_noise_figure_db(from.noise_figure.value);
+  radio.set_slot_ns(from.slot.count());
+  radio.set_retry_limit(from.retry_limit);
+  radio.set_long_retry_limit(from.long_retry_limit);
+  radio.set_rts_threshold_bytes(
+      from.rts_threshold_bytes.value_or(std::numeric_limits<std::uint32_t>::max()));
+  radio.set_queue_frames(from.queue_frames);
+  radio.set_queue_lifetime_ns(from.queue_lifetime.count());
+  radio.set_error_model(name_of(scenario::kErrorModelNames, from.error_model));
+  radio.set_cca_preamble_dbm(from.cca_preamble.value);
+  radio.set_cca_energy_dbm(from.cca_energy.value);
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const scenario::PreambleDetection detection = from.preamble_detection.value_or(
+      scenario::PreambleDetection{.minimum_power = {kNone}, .minimum_sinr = {kNone}});
+  radio.set_detection_minimum_dbm(detection.minimum_power.value);
+  radio.set_detection_minimum_sinr_db(detection.minimum_sinr.value);
+  const auto captures_from = [](const std::optional<Decibel>& sinr) {
+    return sinr ? sinr->value : std::numeric_limits<double>::infinity();
+  };
+  radio.set_capture_in_preamble_db(
+      captures_from(from.capture ? std::optional{from.capture->preamble} : std::nullopt));
+  radio.set_capture_in_frame_db(captures_from(from.capture ? from.capture->frame : std::nullopt));
+  *radio.mutable_propagation() = propagation_of(from);
+  return radio;
+}
+
+}  // namespace cuscus::orchestrator
