@@ -25,6 +25,17 @@ void enlarge_buffers(int fd) {
   }
 }
 
+/// Receives until neither a signal nor a reset comes between. An end that closed with messages it
+/// never read leaves ECONNRESET here, once: what it sent before, then its end, follow it.
+template <typename Receive>
+ssize_t receive_past_interruptions(Receive&& receive) {
+  ssize_t length = -1;
+  do {
+    length = receive();
+  } while (length < 0 && (errno == EINTR || errno == ECONNRESET));
+  return length;
+}
+
 std::vector<UniqueFd> take_descriptors(const msghdr& header) {
   std::vector<UniqueFd> taken;
   for (const cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr;
@@ -111,17 +122,12 @@ std::optional<ControlSocket::Received> ControlSocket::try_receive() {
 
 std::optional<ControlSocket::Received> ControlSocket::receive(int flags) {
   // Its length first: most messages are tiny, and an agent should not keep a mebibyte for them.
-  ssize_t length = -1;
-  while ((length = ::recv(fd_.get(), nullptr, 0, flags | MSG_PEEK | MSG_TRUNC)) < 0) {
-    if (errno == EINTR) {
-      continue;
-    }
-    if (errno == EAGAIN && (flags & MSG_DONTWAIT) != 0) {
-      return std::nullopt;
-    }
-    if (errno == ECONNRESET) {
-      throw PeerError{"the other end of the control socket is gone"};
-    }
+  const ssize_t length = receive_past_interruptions(
+      [&] { return ::recv(fd_.get(), nullptr, 0, flags | MSG_PEEK | MSG_TRUNC); });
+  if (length < 0 && errno == EAGAIN && (flags & MSG_DONTWAIT) != 0) {
+    return std::nullopt;
+  }
+  if (length < 0) {
     posix::throw_errno("receive on the control socket");
   }
   std::string bytes(static_cast<std::size_t>(length), '\0');
@@ -132,7 +138,8 @@ std::optional<ControlSocket::Received> ControlSocket::receive(int flags) {
   header.msg_iovlen = 1;
   header.msg_control = control.data();
   header.msg_controllen = control.size();
-  const ssize_t got = ::recvmsg(fd_.get(), &header, MSG_DONTWAIT | MSG_CMSG_CLOEXEC);
+  const ssize_t got = receive_past_interruptions(
+      [&] { return ::recvmsg(fd_.get(), &header, MSG_DONTWAIT | MSG_CMSG_CLOEXEC); });
   if (got < 0) {
     posix::throw_errno("receive on the control socket");
   }

@@ -6,6 +6,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <string>
+#include <thread>
 
 #include "common/posix/shared_memory.h"
 
@@ -53,6 +54,44 @@ TEST_CASE("a closed end is an error for receiver and sender") {
 
   CHECK_THROWS_AS(right.receive(), PeerError);
   CHECK_THROWS_AS(right.send(envelope), PeerError);
+}
+
+TEST_CASE("an end that closes without having read leaves its own messages behind") {
+  auto [left, right] = ControlSocket::pair();
+  proto::Envelope envelope;
+  envelope.mutable_ready();
+  right.send(envelope);
+  left.send(envelope);
+  { const ControlSocket gone = std::move(left); }
+
+  CHECK(right.receive().envelope.has_ready());
+  CHECK_THROWS_AS(right.receive(), PeerError);
+}
+
+TEST_CASE("an end that closes at any instant of a receive is gone, never a failure of its own") {
+  for (int round = 0; round < 2000; ++round) {
+    auto [left, right] = ControlSocket::pair();
+    proto::Envelope envelope;
+    envelope.mutable_status();
+    right.send(envelope);
+    std::thread sender{[&] {
+      ControlSocket closing = std::move(left);
+      for (int message = 0; message < round % 20; ++message) {
+        closing.send(envelope);
+      }
+    }};
+    int received = 0;
+    CHECK_THROWS_AS(
+        [&] {
+          while (true) {
+            static_cast<void>(right.receive());
+            ++received;
+          }
+        }(),
+        PeerError);
+    sender.join();
+    CHECK(received == round % 20);
+  }
 }
 
 TEST_CASE("bytes that are no message are an error") {
