@@ -8,6 +8,9 @@ namespace {
 
 /// Types below are lengths (IEEE Std 802.3, 3.2.6).
 constexpr std::uint32_t kFirstType = 0x0600;
+// Tags (IEEE Std 802.1Q, table 9-1): behind them comes more than our model of the MAC carries.
+constexpr std::uint32_t kCustomerTag = 0x8100;
+constexpr std::uint32_t kServiceTag = 0x88a8;
 
 }  // namespace
 
@@ -18,7 +21,7 @@ std::optional<EthernetDestination> parse_ethernet(std::span<const std::uint8_t> 
     return std::nullopt;
   }
   const std::uint32_t type = (std::uint32_t{head[12]} << 8U) | head[13];
-  if (type < kFirstType) {
+  if (type < kFirstType || type == kCustomerTag || type == kServiceTag) {
     return std::nullopt;
   }
   return EthernetDestination{.address = mac_address(head.first<6>()), .group = (head[0] & 1U) != 0};

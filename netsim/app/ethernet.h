@@ -16,9 +16,9 @@ struct EthernetDestination {
 };
 
 /// Reads the head of an Ethernet II frame of `frame_bytes` in all, without FCS. Nothing when it
-/// cannot cross the air: shorter than its header, longer than an MSDU may be, or with an IEEE 802.3
-/// length where the type should be. The source address is not looked at: a radio is known by its
-/// interface.
+/// cannot cross the air: shorter than its header, longer than an MSDU may be, with an IEEE 802.3
+/// length where the type should be, or with a VLAN tag. The source address is not looked at: a
+/// radio is known by its interface.
 [[nodiscard]] std::optional<EthernetDestination> parse_ethernet(std::span<const std::uint8_t> head,
                                                                 std::uint32_t frame_bytes);
 

@@ -232,8 +232,12 @@ bool parse_frame_log_header(std::string_view line, AirParameters& p) {
   bool good = true;
   if (key == "nodes") {
     std::uint32_t count = 0;
-    good = read(value, count);
-    p.nodes.assign(count, AirNode{});
+    // More than the air takes: a damaged log must not make us ask for the memory.
+    constexpr std::uint32_t kMostNodes = 65'535;
+    good = read(value, count) && count <= kMostNodes;
+    if (good) {
+      p.nodes.assign(count, AirNode{});
+    }
   } else if (key == "tx_power_dbm") {
     good = read_nodes(value, p, &AirNode::tx_power);
   } else if (key == "antenna_gain_db") {

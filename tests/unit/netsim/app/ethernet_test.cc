@@ -46,7 +46,9 @@ TEST_CASE("addresses are read, and the group bit is the lowest of the first octe
   CHECK(multicast->group);
 }
 
-TEST_CASE("runts, giants and 802.3 lengths cannot cross the air") {
+TEST_CASE("runts, giants, 802.3 lengths and VLAN tags cannot cross the air") {
+  CHECK_FALSE(crosses(0x8100, 60));
+  CHECK_FALSE(crosses(0x88a8, 60));
   CHECK_FALSE(crosses(0x0800, 0));
   CHECK_FALSE(crosses(0x0800, 13));
   CHECK(crosses(0x0800, 14));
