@@ -89,6 +89,72 @@ TEST_CASE("a single sender's goodput follows from the durations of one exchange"
         Approx(slot_us == 20 ? 20.096 : 24.457).epsilon(0.005));
 }
 
+/// Two saturated senders of 1500 B of IP, each to a node of its own, at the best rate for what it
+/// hears from there. All hear one another equally well but for what a faint node sends.
+class TwoSenders final : public AirListener {
+ public:
+  enum class Receiver : bool { kLoud, kFaint };
+
+  TwoSenders(Receiver first, Receiver second)
+      : positions_{std::vector<Eigen::Vector3d>(4, Eigen::Vector3d::Zero())},
+        air_{parameters(first, second), positions_, *this} {}
+
+  /// Frames delivered per second, of each.
+  std::array<double, 2> run() {
+    constexpr double kDuration_s = 20.0;
+    for (const std::uint32_t sender : {0U, 1U}) {
+      offer(sender);
+      offer(sender);
+    }
+    air_.run_until(SimTime{} + seconds{20});
+    return {static_cast<double>(delivered_[0]) / kDuration_s,
+            static_cast<double>(delivered_[1]) / kDuration_s};
+  }
+
+  void delivered(const Delivery& delivery) override { ++delivered_.at(delivery.sender); }
+  void finished(const FrameReport& report) override { offer(report.sender); }
+
+ private:
+  static AirParameters parameters(Receiver first, Receiver second) {
+    AirParameters p;
+    p.rate_control = "ideal";
+    p.channel.model = "fixed";
+    p.channel.reference_loss = {70.0};
+    p.nodes.assign(4, AirNode{.tx_power = {20.0}});
+    // -81 dBm at the others, 13 dB above the noise: enough for ACKs, not for fast rates.
+    constexpr DecibelMilliwatt kFaint{-11.0};
+    p.nodes[2].tx_power = first == Receiver::kFaint ? kFaint : p.nodes[2].tx_power;
+    p.nodes[3].tx_power = second == Receiver::kFaint ? kFaint : p.nodes[3].tx_power;
+    return p;
+  }
+  void offer(std::uint32_t sender) {
+    air_.offer(sender, air_.now(),
+               {.destination = static_cast<std::int32_t>(sender) + 2,
+                .psdu_bytes = psdu_bytes_of_udp(1'472)});
+  }
+
+  FixedPositions positions_;
+  Air air_;
+  std::array<std::uint64_t, 2> delivered_{};
+};
+
+TEST_CASE("a slow sender slows the fast one down to its own pace") {
+  // M. Heusse, F. Rousseau, G. Berger-Sabbatel, A. Duda, "Performance anomaly of 802.11b", INFOCOM
+  // 2003: turns are equal, so that a cycle is one frame of each, and lasts as long as half of a
+  // cycle of two fast senders and half of one of two slow ones. Collisions, which last as long as
+  // the slower frame, are rare between two: 4 % are allowed.
+  using enum TwoSenders::Receiver;
+  const auto fast = TwoSenders{kLoud, kLoud}.run();
+  const auto slow = TwoSenders{kFaint, kFaint}.run();
+  const auto mixed = TwoSenders{kLoud, kFaint}.run();
+
+  REQUIRE(fast[0] > 2.0 * slow[0]);
+  CHECK(mixed[0] == Approx(mixed[1]).epsilon(0.04));
+  const double expected = 1.0 / (0.5 / fast[0] + 0.5 / slow[0]);
+  CHECK(mixed[0] == Approx(expected).epsilon(0.04));
+  CHECK(mixed[1] == Approx(expected).epsilon(0.04));
+}
+
 TEST_CASE("saturated stations get equal shares in the long run") {
   CHECK(run_synthetic(saturated(24'000, 20, 5)).jain > 0.99);
 }
