@@ -70,27 +70,50 @@ TEST_CASE("a copy is not released before the frame's time on the air is over") {
   CHECK(received_ns - sent_ns >= 252'000);
 }
 
-TEST_CASE("runts and frames with an 802.3 length are counted, dropped, and delivered to nobody") {
-  TapFleet fleet{2};
-  // A raw frame: IEEE 802.3 length 46 where Ethernet II has its type.
-  fleet.nodes()[0].space.run([] {
+using RawFrame = std::array<std::uint8_t, 60>;
+
+/// Sends it past node 0's own IP stack.
+void send_raw(TapFleet& fleet, const RawFrame& frame) {
+  fleet.nodes()[0].space.run([&] {
     const posix::UniqueFd raw{
         posix::check("socket", ::socket(AF_PACKET, SOCK_RAW | SOCK_CLOEXEC, 0))};
     sockaddr_ll to{};
     to.sll_family = AF_PACKET;
     to.sll_ifindex = static_cast<int>(::if_nametoindex("wlan0"));
-    std::array<std::uint8_t, 60> bytes{0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 2, 0, 0, 0, 0, 1, 0, 46};
-    posix::check("sendto", ::sendto(raw.get(), bytes.data(), bytes.size(), 0,
+    posix::check("sendto", ::sendto(raw.get(), frame.data(), frame.size(), 0,
                                     reinterpret_cast<const sockaddr*>(&to), sizeof to));
   });
+}
+
+TEST_CASE("802.3 lengths and VLAN tags are counted, dropped, and delivered to nobody") {
+  TapFleet fleet{2};
+  // A length of 46 and a customer tag where Ethernet II has its type.
+  send_raw(fleet, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 2, 0, 0, 0, 0, 1, 0, 46});
+  send_raw(fleet, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 2, 0, 0, 0, 0, 1, 0x81, 0, 0, 5, 8, 0});
+  fleet.send(0, test_address(255), "after them");
+
+  REQUIRE(fleet.receive(1) == "after them");
+  fleet.stop();
+
+  CHECK(fleet.air().tally(0).dropped_malformed == 2);
+  CHECK(fleet.air().tally(0).offered == 3);
+  CHECK(fleet.air().tally(1).received == 1);
+}
+
+TEST_CASE("a frame with another node's source address is still its sender's") {
+  TapFleet fleet{3};
+  // Broadcast, "from" node 1.
+  send_raw(fleet, {0xff, 0xff, 0xff, 0xff, 0xff, 0xff, 2, 0, 0, 0, 0, 2, 0x88, 0xb5});
   fleet.send(0, test_address(255), "after it");
 
   REQUIRE(fleet.receive(1) == "after it");
+  REQUIRE(fleet.receive(2) == "after it");
   fleet.stop();
 
-  CHECK(fleet.air().tally(0).dropped_malformed == 1);
   CHECK(fleet.air().tally(0).offered == 2);
-  CHECK(fleet.air().tally(1).received == 1);
+  CHECK(fleet.air().tally(1).offered == 0);
+  CHECK(fleet.air().tally(1).received == 2);
+  CHECK(fleet.air().tally(2).received == 2);
 }
 
 TEST_CASE("a receiver whose interface is down loses its copies, and the others do not") {
