@@ -34,6 +34,17 @@ inline constexpr std::array kGroundNames{Named<Ground>{"very-dry", Ground::kVery
 inline constexpr std::array kPolarisationNames{
     Named<Polarisation>{"vertical", Polarisation::kVertical},
     Named<Polarisation>{"horizontal", Polarisation::kHorizontal}};
+inline constexpr std::array kCanyonBoundNames{Named<CanyonBound>{"lower", CanyonBound::kLower},
+                                              Named<CanyonBound>{"middle", CanyonBound::kMiddle},
+                                              Named<CanyonBound>{"upper", CanyonBound::kUpper}};
+inline constexpr std::array kBuiltUpAreaNames{
+    Named<BuiltUpArea>{"suburban", BuiltUpArea::kSuburban},
+    Named<BuiltUpArea>{"urban", BuiltUpArea::kUrban},
+    Named<BuiltUpArea>{"dense-urban", BuiltUpArea::kDenseUrban},
+    Named<BuiltUpArea>{"high-rise", BuiltUpArea::kHighRise}};
+inline constexpr std::array kAerialAreaNames{Named<AerialArea>{"RMa-AV", AerialArea::kRuralMacro},
+                                             Named<AerialArea>{"UMa-AV", AerialArea::kUrbanMacro},
+                                             Named<AerialArea>{"UMi-AV", AerialArea::kUrbanMicro}};
 inline constexpr std::array kErrorModelNames{Named<ErrorModel>{"nist", ErrorModel::kNist},
                                              Named<ErrorModel>{"yans", ErrorModel::kYans}};
 inline constexpr std::array kAttachNames{Named<Attach>{"bridge", Attach::kBridge},

@@ -7,9 +7,49 @@ namespace cuscus::scenario {
 
 using nlohmann::json;
 
+namespace {
+
+const std::vector<std::string> kModels{"friis", "log-distance", "paper-eq1", "two-ray",
+                                       "p1411", "al-hourani",   "tr36777"};
+
+LineOfSight read_line_of_sight(ObjectReader& reader) {
+  LineOfSight result;
+  result.mean = reader.choice_index("line_of_sight", {"drawn", "mean"}) == 1;
+  if (!result.mean) {
+    result.decorrelation_m =
+        reader.quantity("decorrelation", result.decorrelation_m, {kLength, "0.1 m", "10 km"});
+  }
+  return result;
+}
+
+StreetCanyonPropagation read_street_canyon(ObjectReader& reader) {
+  StreetCanyonPropagation model;
+  model.bound = reader.choice("bound", model.bound, kCanyonBoundNames);
+  reader.finish();
+  return model;
+}
+
+AlHouraniPropagation read_al_hourani(ObjectReader& reader) {
+  AlHouraniPropagation model;
+  model.environment = reader.choice("environment", model.environment, kBuiltUpAreaNames);
+  model.line_of_sight = read_line_of_sight(reader);
+  reader.finish();
+  return model;
+}
+
+Tr36777Propagation read_tr36777(ObjectReader& reader) {
+  Tr36777Propagation model;
+  model.area = reader.choice("scenario", model.area, kAerialAreaNames);
+  model.line_of_sight = read_line_of_sight(reader);
+  reader.finish();
+  return model;
+}
+
+}  // namespace
+
 Propagation read_propagation(const json* value, const std::string& path, Problems& problems) {
   ObjectReader reader{value, path, problems};
-  switch (reader.choice_index("model", {"friis", "log-distance", "paper-eq1", "two-ray"})) {
+  switch (reader.choice_index("model", kModels)) {
     case 1: {
       LogDistancePropagation model;
       model.exponent = reader.number("exponent", model.exponent, {0.0, 10.0});
@@ -37,11 +77,17 @@ Propagation read_propagation(const json* value, const std::string& path, Problem
       reader.finish();
       return model;
     }
+    case 4:
+      return read_street_canyon(reader);
+    case 5:
+      return read_al_hourani(reader);
+    case 6:
+      return read_tr36777(reader);
     default:
       if (reader.has("model") || value == nullptr || !value->is_object()) {
         reader.finish();
       } else {
-        reader.missing("model", "friis, log-distance, paper-eq1, two-ray");
+        reader.missing("model", joined(kModels));
       }
       return FriisPropagation{};
   }

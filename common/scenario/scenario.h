@@ -52,8 +52,43 @@ struct TwoRayPropagation {
   double roughness_m{0.0};
 };
 
+enum class CanyonBound { kLower, kMiddle, kUpper };
+
+/// Along a street, below the roofs: Recommendation ITU-R P.1411.
+struct StreetCanyonPropagation {
+  CanyonBound bound{CanyonBound::kMiddle};
+};
+
+/// How a model that knows only how likely line of sight is decides on a link.
+struct LineOfSight {
+  bool mean{false};  ///< The mean of both losses instead of a draw.
+  double decorrelation_m{50.0};
+};
+
+enum class BuiltUpArea { kSuburban, kUrban, kDenseUrban, kHighRise };
+
+struct AlHouraniPropagation {
+  BuiltUpArea environment{BuiltUpArea::kUrban};
+  LineOfSight line_of_sight;
+};
+
+enum class AerialArea { kRuralMacro, kUrbanMacro, kUrbanMicro };
+
+/// 3GPP TR 36.777.
+struct Tr36777Propagation {
+  AerialArea area{AerialArea::kUrbanMacro};
+  LineOfSight line_of_sight;
+};
+
 using Propagation =
-    std::variant<FriisPropagation, LogDistancePropagation, PaperPropagation, TwoRayPropagation>;
+    std::variant<FriisPropagation, LogDistancePropagation, PaperPropagation, TwoRayPropagation,
+                 StreetCanyonPropagation, AlHouraniPropagation, Tr36777Propagation>;
+
+/// Whether the model stands in for a map by chance of line of sight: it must not meet one.
+[[nodiscard]] inline bool draws_line_of_sight(const Propagation& propagation) {
+  return std::holds_alternative<AlHouraniPropagation>(propagation) ||
+         std::holds_alternative<Tr36777Propagation>(propagation);
+}
 
 struct Shadowing {
   double deviation_dB{4.0};

@@ -51,6 +51,30 @@ Json json_of(const TwoRayPropagation& model) {
           {"roughness", format_quantity(model.roughness_m, kLength)}};
 }
 
+Json json_of(const StreetCanyonPropagation& model) {
+  return {{"model", "p1411"}, {"bound", name_of(kCanyonBoundNames, model.bound)}};
+}
+
+Json with_line_of_sight(Json model, const LineOfSight& line_of_sight) {
+  model["line_of_sight"] = line_of_sight.mean ? "mean" : "drawn";
+  if (!line_of_sight.mean) {
+    model["decorrelation"] = format_quantity(line_of_sight.decorrelation_m, kLength);
+  }
+  return model;
+}
+
+Json json_of(const AlHouraniPropagation& model) {
+  return with_line_of_sight(
+      {{"model", "al-hourani"}, {"environment", name_of(kBuiltUpAreaNames, model.environment)}},
+      model.line_of_sight);
+}
+
+Json json_of(const Tr36777Propagation& model) {
+  return with_line_of_sight(
+      {{"model", "tr36777"}, {"scenario", name_of(kAerialAreaNames, model.area)}},
+      model.line_of_sight);
+}
+
 Json json_of(const NoFading& /*fading*/) { return "none"; }
 
 Json json_of(const RiceFading& rice) {

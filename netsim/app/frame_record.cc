@@ -147,6 +147,11 @@ void for_each_common(Parameters& p, const Field& field) {
   field("ground", p.channel.ground);
   field("polarisation", p.channel.polarisation);
   field("roughness_m", p.channel.roughness_m);
+  field("canyon_bound", p.channel.canyon_bound);
+  field("environment", p.channel.environment);
+  field("area", p.channel.area);
+  field("line_of_sight", p.channel.line_of_sight);
+  field("line_of_sight_decorrelation_m", p.channel.line_of_sight_decorrelation_m);
   field("shadowing_db", p.channel.shadowing_db);
   field("shadowing_decorrelation_m", p.channel.shadowing_decorrelation_m);
   field("fading", p.channel.fading);

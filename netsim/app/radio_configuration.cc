@@ -41,6 +41,11 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
                  .polarisation = p.horizontal_polarisation() ? Polarisation::kHorizontal
                                                              : Polarisation::kVertical,
                  .roughness_m = p.roughness_m(),
+                 .canyon_bound = p.canyon_bound(),
+                 .environment = p.environment(),
+                 .area = p.area(),
+                 .line_of_sight = p.line_of_sight(),
+                 .line_of_sight_decorrelation_m = p.line_of_sight_decorrelation_m(),
                  .shadowing_db = p.shadowing_db(),
                  .shadowing_decorrelation_m = p.shadowing_decorrelation_m(),
                  .fading = p.fading(),

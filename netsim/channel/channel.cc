@@ -52,16 +52,44 @@ std::unique_ptr<const PathLossModel> make_two_ray(const ChannelParameters& p) {
       .ground = p.ground, .polarisation = p.polarisation, .roughness_m = p.roughness_m});
 }
 
+std::unique_ptr<const PathLossModel> make_street_canyon(const ChannelParameters& p) {
+  return std::make_unique<StreetCanyon>(p.canyon_bound);
+}
+
+std::unique_ptr<const PathLossModel> make_aerial(std::unique_ptr<const AerialModel> model,
+                                                 const ChannelParameters& p) {
+  if (p.line_of_sight == "mean") {
+    return std::make_unique<AerialLoss>(std::move(model), std::nullopt);
+  }
+  require(p.line_of_sight == "drawn", p.model, "line of sight must be 'drawn' or 'mean'");
+  require(p.line_of_sight_decorrelation_m > 0.0 && std::isfinite(p.line_of_sight_decorrelation_m),
+          p.model, "the decorrelation distance must be above 0 m");
+  return std::make_unique<AerialLoss>(
+      std::move(model),
+      AerialLoss::Draw{.decorrelation_m = p.line_of_sight_decorrelation_m, .seed = p.seed});
+}
+
+std::unique_ptr<const PathLossModel> make_al_hourani(const ChannelParameters& p) {
+  return make_aerial(std::make_unique<AlHourani>(p.environment), p);
+}
+
+std::unique_ptr<const PathLossModel> make_tr36777(const ChannelParameters& p) {
+  return make_aerial(std::make_unique<Tr36777>(p.area), p);
+}
+
 std::unique_ptr<const PathLossModel> make_fixed(const ChannelParameters& p) {
   require(p.reference_loss.value >= 0.0, p.model, "the loss must be at least 0 dB");
   return std::make_unique<FixedLoss>(p.reference_loss);
 }
 
 /// Every model by name: a new one is a class, a function above and a row here.
-constexpr std::array<Entry, 5> kModels{{{"friis", make_friis},
+constexpr std::array<Entry, 8> kModels{{{"friis", make_friis},
                                         {"log-distance", make_log_distance},
                                         {"two-ray", make_two_ray},
                                         {"paper-eq1", make_paper_equation_1},
+                                        {"p1411", make_street_canyon},
+                                        {"al-hourani", make_al_hourani},
+                                        {"tr36777", make_tr36777},
                                         {"fixed", make_fixed}}};
 
 std::unique_ptr<const PathLossModel> make_path_loss(const ChannelParameters& parameters) {

@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "common/units/decibel.h"
+#include "netsim/channel/aerial_loss.h"
 #include "netsim/channel/fading.h"
 #include "netsim/channel/link.h"
 #include "netsim/channel/path_loss.h"
 #include "netsim/channel/shadowing.h"
+#include "netsim/channel/street_canyon.h"
 #include "netsim/channel/two_ray.h"
 
 namespace cuscus::netsim {
@@ -41,8 +43,13 @@ struct ChannelParameters {
   double chi_db2{0.0};               ///< paper-eq1: variance of Ψ.
   std::string ground{"medium-dry"};  ///< two-ray.
   Polarisation polarisation{Polarisation::kVertical};  ///< two-ray.
-  double roughness_m{0.0};   ///< two-ray: standard deviation of the ground's height.
-  double shadowing_db{0.0};  ///< Standard deviation; 0: no shadowing.
+  double roughness_m{0.0};             ///< two-ray: standard deviation of the ground's height.
+  std::string canyon_bound{"middle"};  ///< p1411.
+  std::string environment{"urban"};    ///< al-hourani.
+  std::string area{"UMa-AV"};          ///< tr36777: its scenario.
+  std::string line_of_sight{"drawn"};  ///< al-hourani, tr36777: or "mean".
+  double line_of_sight_decorrelation_m{50.0};  ///< al-hourani, tr36777: of the draw.
+  double shadowing_db{0.0};                    ///< Standard deviation; 0: no shadowing.
   double shadowing_decorrelation_m{20.0};
   std::string fading{"none"};                                  ///< "none", "rice" or "nakagami".
   Decibel k_factor{-std::numeric_limits<double>::infinity()};  ///< rice; -inf: Rayleigh.

@@ -8,14 +8,17 @@
 namespace cuscus::netsim {
 namespace {
 
-/// Purpose number of the stream (see random::stream_id).
+// Purpose numbers of the streams (see random::stream_id).
 constexpr std::uint16_t kFieldStream = 0x1007;
+constexpr std::uint16_t kVisibilityStream = 0x1010;
 
 }  // namespace
 
 Shadowing::Shadowing(const Parameters& parameters)
     : amplitude_db_{parameters.deviation_db * std::sqrt(2.0 / kWaves)} {
-  const random::CounterStream draws{parameters.seed, random::stream_id(kFieldStream, 0)};
+  const std::uint16_t purpose =
+      parameters.purpose == Purpose::kVisibility ? kVisibilityStream : kFieldStream;
+  const random::CounterStream draws{parameters.seed, random::stream_id(purpose, 0)};
   std::uint64_t draw = 0;
   // A normal vector over the modulus of a normal variable is Cauchy distributed.
   const auto spatial_frequency = [&] {

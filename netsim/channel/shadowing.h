@@ -24,10 +24,13 @@ namespace cuscus::netsim {
 /// distances of 3GPP TR 38.901: 37 to 50 m urban macro, 10 to 13 m urban micro.
 class Shadowing final {
  public:
+  /// Fields of different purposes are independent.
+  enum class Purpose : std::uint8_t { kShadows, kVisibility };
   struct Parameters {
     double deviation_db{0.0};
     double decorrelation_m{20.0};
     std::uint64_t seed{1};
+    Purpose purpose{Purpose::kShadows};
   };
 
   explicit Shadowing(const Parameters& parameters);

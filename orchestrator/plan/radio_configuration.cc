@@ -24,9 +24,12 @@ void add_fading(const scenario::Fading& from, proto::PropagationConfiguration& r
   }
 }
 
-proto::PropagationConfiguration propagation_of(const scenario::Radio& radio) {
-  proto::PropagationConfiguration result;
-  const scenario::Propagation& from = radio.propagation;
+void set_line_of_sight(const scenario::LineOfSight& from, proto::PropagationConfiguration& result) {
+  result.set_line_of_sight(from.mean ? "mean" : "drawn");
+  result.set_line_of_sight_decorrelation_m(from.decorrelation_m);
+}
+
+void add_model(const scenario::Propagation& from, proto::PropagationConfiguration& result) {
   if (const auto* model = std::get_if<scenario::LogDistancePropagation>(&from)) {
     result.set_model("log-distance");
     result.set_exponent(model->exponent);
@@ -41,9 +44,25 @@ proto::PropagationConfiguration propagation_of(const scenario::Radio& radio) {
     result.set_horizontal_polarisation(two_ray->polarisation ==
                                        scenario::Polarisation::kHorizontal);
     result.set_roughness_m(two_ray->roughness_m);
+  } else if (const auto* canyon = std::get_if<scenario::StreetCanyonPropagation>(&from)) {
+    result.set_model("p1411");
+    result.set_canyon_bound(name_of(scenario::kCanyonBoundNames, canyon->bound));
+  } else if (const auto* built_up = std::get_if<scenario::AlHouraniPropagation>(&from)) {
+    result.set_model("al-hourani");
+    result.set_environment(name_of(scenario::kBuiltUpAreaNames, built_up->environment));
+    set_line_of_sight(built_up->line_of_sight, result);
+  } else if (const auto* aerial = std::get_if<scenario::Tr36777Propagation>(&from)) {
+    result.set_model("tr36777");
+    result.set_area(name_of(scenario::kAerialAreaNames, aerial->area));
+    set_line_of_sight(aerial->line_of_sight, result);
   } else {
     result.set_model("friis");
   }
+}
+
+proto::PropagationConfiguration propagation_of(const scenario::Radio& radio) {
+  proto::PropagationConfiguration result;
+  add_model(radio.propagation, result);
   if (const auto& shadowing = radio.shadowing) {
     result.set_shadowing_db(shadowing->deviation_dB);
     result.set_shadowing_decorrelation_m(shadowing->decorrelation_m);

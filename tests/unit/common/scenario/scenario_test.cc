@@ -94,10 +94,14 @@ TEST_CASE("The scenario written out in full is the same scenario") {
          "start": {"layout": "list", "positions": [["1 m", "2 m", "30 cm"]]}}],
       "ground_station": {"page": "none"}, "record": {"frames": true}})";
   std::vector<Scenario> scenarios{parse(rich)};
-  for (const char* const radio :
-       {R"({"standard": "802.11p", "fading": {"model": "nakagami", "m": 2.5}})",
-        R"({"standard": "802.11b", "fading": {"model": "rayleigh"}})", R"({"standard": "802.11a"})",
-        R"({"propagation": {"model": "two-ray", "ground": "wet", "roughness": "5 cm"}})"}) {
+  for (
+      const char* const radio :
+      {R"({"standard": "802.11p", "fading": {"model": "nakagami", "m": 2.5}})",
+       R"({"standard": "802.11b", "fading": {"model": "rayleigh"}})", R"({"standard": "802.11a"})",
+       R"({"propagation": {"model": "two-ray", "ground": "wet", "roughness": "5 cm"}})",
+       R"({"propagation": {"model": "p1411", "bound": "upper"}})",
+       R"({"propagation": {"model": "al-hourani", "environment": "high-rise"}})",
+       R"({"propagation": {"model": "tr36777", "scenario": "RMa-AV", "line_of_sight": "mean"}})"}) {
     scenarios.push_back(
         parse(R"({"name": "t", "fleet": [{}], "radio": )" + std::string{radio} + "}"));
   }

@@ -48,6 +48,11 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   p.set_ground("wet");
   p.set_horizontal_polarisation(true);
   p.set_roughness_m(0.25);
+  p.set_canyon_bound("upper");
+  p.set_environment("suburban");
+  p.set_area("UMi-AV");
+  p.set_line_of_sight("mean");
+  p.set_line_of_sight_decorrelation_m(33.0);
   p.set_shadowing_db(3.5);
   p.set_shadowing_decorrelation_m(11.0);
   p.set_fading("rice");
@@ -89,6 +94,11 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   CHECK(air.channel.ground == "wet");
   CHECK(air.channel.polarisation == Polarisation::kHorizontal);
   CHECK(air.channel.roughness_m == 0.25);
+  CHECK(air.channel.canyon_bound == "upper");
+  CHECK(air.channel.environment == "suburban");
+  CHECK(air.channel.area == "UMi-AV");
+  CHECK(air.channel.line_of_sight == "mean");
+  CHECK(air.channel.line_of_sight_decorrelation_m == 33.0);
   CHECK(air.channel.shadowing_db == 3.5);
   CHECK(air.channel.shadowing_decorrelation_m == 11.0);
   CHECK(air.channel.fading == "rice");

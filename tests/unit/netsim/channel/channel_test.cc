@@ -77,7 +77,7 @@ TEST_CASE(
 TEST_CASE("a wrong model or parameter is named, with what is allowed") {
   CHECK_THROWS_WITH((Channel{{.model = "frees"}}),
                     "propagation model 'frees' is not known; allowed are 'friis', 'log-distance', "
-                    "'two-ray', 'paper-eq1', 'fixed'");
+                    "'two-ray', 'paper-eq1', 'p1411', 'al-hourani', 'tr36777', 'fixed'");
   CHECK_THROWS_WITH((Channel{{.model = "log-distance", .exponent = 0.0}}),
                     "propagation model 'log-distance': exponent must be above 0");
   CHECK_THROWS_WITH((Channel{{.model = "paper-eq1", .chi_db2 = -1.0}}),

@@ -40,7 +40,8 @@ TEST_CASE("every term is the same in both directions") {
 
 TEST_CASE("every loss is a number, also where two nodes are at one place") {
   const auto* const fading = GENERATE("none", "rice", "nakagami");
-  const auto* const model = GENERATE("friis", "log-distance", "two-ray", "paper-eq1", "fixed");
+  const auto* const model = GENERATE("friis", "log-distance", "two-ray", "paper-eq1", "p1411",
+                                     "al-hourani", "tr36777", "fixed");
   ChannelParameters parameters = full_channel(fading);
   parameters.model = model;
   parameters.chi_db2 = 9.0;
