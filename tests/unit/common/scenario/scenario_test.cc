@@ -94,10 +94,13 @@ TEST_CASE("The scenario written out in full is the same scenario") {
          "start": {"layout": "list", "positions": [["1 m", "2 m", "30 cm"]]}}],
       "ground_station": {"page": "none"}, "record": {"frames": true}})";
   std::vector<Scenario> scenarios{parse(rich)};
-  for (const char* const radio :
-       {R"({"standard": "802.11p", "fading": {"model": "nakagami", "m": 2.5}})",
-        R"({"standard": "802.11b", "fading": {"model": "rayleigh"}})", R"({"standard": "802.11a"})",
-        R"({"propagation": {"model": "two-ray", "ground": "wet", "roughness": "5 cm"}})"}) {
+  for (
+      const char* const radio :
+      {R"({"standard": "802.11p", "fading": {"model": "nakagami", "m": 2.5}})",
+       R"({"mac": {"model": "tdma", "slot": "4 ms", "guard": "1 us", "frame": ["gcs", "-", "uav0"]}})",
+       R"({"mac": {"model": "tdma"}})", R"({"mac": {"model": "dcf"}})",
+       R"({"standard": "802.11b", "fading": {"model": "rayleigh"}})", R"({"standard": "802.11a"})",
+       R"({"propagation": {"model": "two-ray", "ground": "wet", "roughness": "5 cm"}})"}) {
     scenarios.push_back(
         parse(R"({"name": "t", "fleet": [{}], "radio": )" + std::string{radio} + "}"));
   }
