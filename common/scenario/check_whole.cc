@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "common/scenario/names.h"
 #include "common/scenario/placeholders.h"
 #include "common/scenario/section_readers.h"
 #include "common/units/autopilot_limits.h"
@@ -17,6 +18,19 @@ std::string text_of(Duration time) {
 std::string quoted(Duration time) { return '"' + text_of(time) + '"'; }
 
 std::string group_path(std::size_t group) { return "/fleet/" + std::to_string(group); }
+
+std::set<std::string> node_names(const Scenario& scenario) {
+  std::set<std::string> names;
+  for (const Group& group : scenario.fleet) {
+    for (std::uint32_t member = 0; member < group.count; ++member) {
+      names.insert(uav_name(group, member));
+    }
+  }
+  if (scenario.ground_station.enabled) {
+    names.emplace(kGroundStationName);
+  }
+  return names;
+}
 
 void check_counts(const Scenario& scenario, Problems& problems) {
   const std::uint32_t uavs = scenario.uav_count();
@@ -187,19 +201,55 @@ void check_standing(const Scenario& scenario, Problems& problems) {
   }
 }
 
-/// Fills the placeholders in as the plan will, with addresses that only need to exist.
-void check_placeholders(const Scenario& scenario, Problems& problems) {
-  std::set<std::string> names;
-  for (const Group& group : scenario.fleet) {
-    for (std::uint32_t member = 0; member < group.count; ++member) {
-      names.insert(uav_name(group, member));
+/// Longest frame at `rate_kbps`, and the guard time behind it, against the slot.
+void check_slot(const Scenario& scenario, const TdmaMac& tdma, std::uint32_t rate_kbps,
+                const std::string& key, Problems& problems) {
+  const double airtime_us = 1e6 * airtime_s(scenario.radio, scenario.network.mtu_bytes, rate_kbps);
+  const Duration needed =
+      std::chrono::microseconds{std::llround(std::ceil(airtime_us - 1e-6))} + tdma.guard;
+  if (needed > tdma.slot) {
+    problems.add("/radio/mac/slot", quoted(tdma.slot) + " is too short for an IP packet of " +
+                                        std::to_string(scenario.network.mtu_bytes) +
+                                        " B (network/mtu) at the " + key + " of " +
+                                        format_quantity(rate_kbps, kBitRate) +
+                                        " and the guard time; allowed: from " + text_of(needed));
+  }
+}
+
+void check_tdma(const Scenario& scenario, Problems& problems) {
+  const auto* tdma = std::get_if<TdmaMac>(&scenario.radio.mac);
+  if (tdma == nullptr) {
+    return;
+  }
+  if (scenario.radio.rate_control != RateControl::kConstant) {
+    problems.add("/radio/rate_control",
+                 '"' + name_of(kRateControlNames, scenario.radio.rate_control) +
+                     "\" learns from ACKs, and tdma has none; allowed: "
+                     "constant");
+  }
+  check_slot(scenario, *tdma, scenario.radio.data_rate_kbps, "data_rate", problems);
+  if (scenario.radio.group_rate_kbps != scenario.radio.data_rate_kbps) {
+    check_slot(scenario, *tdma, scenario.radio.group_rate_kbps, "group_rate", problems);
+  }
+  const std::set<std::string> names = node_names(scenario);
+  for (std::size_t slot = 0; slot < tdma->frame.size(); ++slot) {
+    if (tdma->frame[slot] != kNoOwner && !names.contains(tdma->frame[slot])) {
+      const std::string near = nearest(tdma->frame[slot], {names.begin(), names.end()});
+      problems.add("/radio/mac/frame/" + std::to_string(slot),
+                   '"' + tdma->frame[slot] + "\" is no node; " +
+                       (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
+                       "allowed: names of nodes, such as \"" + *names.begin() + "\", or \"-\"");
     }
   }
+}
+
+/// Fills the placeholders in as the plan will, with addresses that only need to exist.
+void check_placeholders(const Scenario& scenario, Problems& problems) {
+  const std::set<std::string> names = node_names(scenario);
   PlaceholderValues values;
   values.index = values.count = values.name = values.group = values.ip = "0";
   values.broadcast = values.scenario_dir = "0";
   if (scenario.ground_station.enabled) {
-    names.emplace(kGroundStationName);
     values.gcs_ip = "0";
   }
   values.ip_of = [&names](const std::string& name) {
@@ -238,6 +288,7 @@ void check_whole(const Scenario& scenario, Problems& problems) {
   check_positions(scenario, problems);
   check_standing(scenario, problems);
   check_placeholders(scenario, problems);
+  check_tdma(scenario, problems);
 }
 
 }  // namespace cuscus::scenario

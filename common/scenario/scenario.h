@@ -128,6 +128,20 @@ struct Capture {
   std::optional<Decibel> frame;  ///< After it; nothing: never.
 };
 
+/// Distributed coordination function: listen before talk.
+struct DcfMac {};
+
+/// Time division multiple access.
+struct TdmaMac {
+  Duration slot{std::chrono::microseconds{2500}};
+  Duration guard{std::chrono::microseconds{10}};
+  /// Names of the slots' owners, kNoOwner where there is none. Empty: every node in turn.
+  std::vector<std::string> frame;
+};
+inline constexpr std::string_view kNoOwner = "-";
+
+using Mac = std::variant<DcfMac, TdmaMac>;
+
 struct Radio {
   RadioStandard standard{RadioStandard::k80211g};
   std::uint32_t data_rate_kbps{6000};   ///< Individually addressed frames.
@@ -145,6 +159,7 @@ struct Radio {
   std::uint32_t long_retry_limit{7};  ///< Attempts of data after an RTS.
   /// PSDUs above this many bytes are sent after RTS and CTS; nothing: none is.
   std::optional<std::uint32_t> rts_threshold_bytes;
+  Mac mac{DcfMac{}};
   std::uint32_t queue_frames{500};
   Duration queue_lifetime{std::chrono::milliseconds{500}};
   ErrorModel error_model{ErrorModel::kNist};
@@ -343,6 +358,18 @@ struct Scenario {
 
 /// What a radio of that standard has where a scenario says nothing else.
 [[nodiscard]] Radio default_radio(RadioStandard standard);
+
+/// Time on air of a frame whose IP packet has `ip_bytes`, preamble and signal extension included.
+///
+/// OFDM: 20 us + 4 us ceil((16 + 8 L + 6) / N_DBPS), 6 us more in 802.11g, all of it doubled in
+/// 802.11p; DSSS: 192 us (96 us with a short preamble) + 8 L / R, with L the PSDU: 24 B of header,
+/// 8 B of LLC/SNAP, the packet, 4 B of FCS.
+/// Source: IEEE Std 802.11-2020, 18.3.2.4 and 17.3.2 (equation 17-29), 16.3.4.
+[[nodiscard]] double airtime_s(const Radio& radio, std::uint32_t ip_bytes, std::uint32_t rate_kbps);
+[[nodiscard]] double psdu_airtime_s(const Radio& radio, std::uint32_t psdu_bytes,
+                                    std::uint32_t rate_kbps);
+/// MAC header, LLC/SNAP and FCS around an IP packet.
+[[nodiscard]] std::uint32_t psdu_bytes(std::uint32_t ip_bytes);
 
 /// The JSON schema of scenarios (draft-07), as it is in scenarios/scenario.schema.json.
 [[nodiscard]] std::string_view scenario_schema();

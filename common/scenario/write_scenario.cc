@@ -97,6 +97,15 @@ Json json_of(const std::optional<Shadowing>& shadowing) {
           {"decorrelation", format_quantity(shadowing->decorrelation_m, kLength)}};
 }
 
+Json json_of(const DcfMac& /*mac*/) { return {{"model", "dcf"}}; }
+
+Json json_of(const TdmaMac& tdma) {
+  return {{"model", "tdma"},
+          {"slot", text(tdma.slot)},
+          {"guard", text(tdma.guard)},
+          {"frame", tdma.frame.empty() ? Json("nodes") : Json(tdma.frame)}};
+}
+
 Json json_of(const Radio& radio) {
   Json basic_rates = Json::array();
   for (const std::uint32_t rate_kbps : radio.basic_rates_kbps) {
@@ -130,6 +139,7 @@ Json json_of(const Radio& radio) {
           {"long_retry_limit", radio.long_retry_limit},
           {"rts_threshold",
            radio.rts_threshold_bytes ? Json(*radio.rts_threshold_bytes) : Json("none")},
+          {"mac", std::visit([](const auto& mac) { return json_of(mac); }, radio.mac)},
           {"queue", {{"frames", radio.queue_frames}, {"lifetime", text(radio.queue_lifetime)}}},
           {"error_model", name_of(kErrorModelNames, radio.error_model)},
           {"cca",

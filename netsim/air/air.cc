@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "netsim/air/event_rank.h"
@@ -19,6 +20,25 @@ void require(bool holds, const std::string& rule) {
   if (!holds) {
     throw std::invalid_argument{"radio: " + rule};
   }
+}
+
+TdmaSchedule tdma_schedule(const AirParameters& p) {
+  TdmaSchedule tdma = p.tdma;
+  require(tdma.guard >= Duration::zero() && tdma.guard < tdma.slot,
+          "the guard time of TDMA must not be negative, and its slot must be longer");
+  require(p.rate_control == "constant", "rate control '" + p.rate_control +
+                                            "' needs ACKs, which TDMA has not; allowed: constant");
+  const auto nodes = static_cast<std::int32_t>(p.nodes.size());
+  if (tdma.frame.empty()) {
+    tdma.frame.resize(p.nodes.size());
+    std::iota(tdma.frame.begin(), tdma.frame.end(), 0);
+  }
+  for (const std::int32_t owner : tdma.frame) {
+    require(owner == kNobody || (owner >= 0 && owner < nodes),
+            "a slot of TDMA has the owner " + std::to_string(owner) +
+                "; allowed: -2 for none, 0 ... " + std::to_string(nodes - 1));
+  }
+  return tdma;
 }
 
 MacParameters mac_parameters(const AirParameters& p, const Standard& standard) {
@@ -38,6 +58,9 @@ MacParameters mac_parameters(const AirParameters& p, const Standard& standard) {
   mac.rts_threshold_bytes = p.rts_threshold_bytes;
   mac.queue_frames = p.queue_frames;
   mac.queue_lifetime = p.queue_lifetime;
+  if (p.mac == "tdma") {
+    mac.tdma = tdma_schedule(p);
+  }
   return mac;
 }
 
@@ -63,12 +86,10 @@ ReceiverParameters receiver_parameters(const AirParameters& p, const Standard& s
 
 }  // namespace
 
-Air::Station::Station(const ReceiverModel& model, std::uint32_t node, const MacParameters& mac,
-                      MacHost& host, std::unique_ptr<RateControl> rate_control, std::uint64_t seed)
+Air::Station::Station(const ReceiverModel& model, std::uint32_t node, std::uint64_t seed,
+                      std::unique_ptr<RateControl> rate_control)
     : receiver{model, random::CounterStream{seed, random::stream_id(kReceptionStream, node)}},
-      rates{std::move(rate_control)},
-      dcf{node, mac, host, *rates,
-          random::CounterStream{seed, random::stream_id(kBackoffStream, node)}} {}
+      rates{std::move(rate_control)} {}
 
 Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener)
     : seed_{parameters.seed},
@@ -93,8 +114,14 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
                 std::isfinite(radios_[node].antenna_gain.value),
             "powers and gains must be finite");
     rates.draws = {seed_, random::stream_id(kRateStream, node)};
-    stations_.emplace_back(receiver_model_, node, mac_, static_cast<MacHost&>(*this),
-                           make_rate_control(parameters.rate_control, rates), seed_);
+    Station& station = stations_.emplace_back(receiver_model_, node, seed_,
+                                              make_rate_control(parameters.rate_control, rates));
+    station.mac =
+        make_mac(parameters.mac, {.node = node,
+                                  .parameters = &mac_,
+                                  .host = this,
+                                  .rates = station.rates.get(),
+                                  .draws = {seed_, random::stream_id(kBackoffStream, node)}});
   }
 }
 
@@ -169,10 +196,10 @@ bool Air::run_next(SimTime limit) {
       const FrameReport& report = pending_[step.index].report;
       Station& station = stations_[report.sender];
       ++station.tally.offered;
-      station.dcf.enqueue(now_, {.frame = step.index,
-                                 .destination = report.destination,
-                                 .psdu_bytes = report.psdu_bytes,
-                                 .queued_at = now_});
+      station.mac->enqueue(now_, {.frame = step.index,
+                                  .destination = report.destination,
+                                  .psdu_bytes = report.psdu_bytes,
+                                  .queued_at = now_});
       break;
     }
     case Step::Kind::kSweep:
@@ -180,12 +207,12 @@ bool Air::run_next(SimTime limit) {
       break;
     case Step::Kind::kTransmissionEnd:
       stations_[step.index].receiver.end_transmission();
-      stations_[step.index].dcf.transmission_ended(now_);
+      stations_[step.index].mac->transmission_ended(now_);
       update_medium(step.index);
       break;
     case Step::Kind::kTimer: {
       stations_[step.index].timers[step.detail] = {};
-      stations_[step.index].dcf.timer(now_, static_cast<MacTimer>(step.detail));
+      stations_[step.index].mac->timer(now_, static_cast<MacTimer>(step.detail));
       break;
     }
   }
@@ -214,7 +241,7 @@ void Air::finished(std::uint32_t node, const Msdu& msdu, SendOutcome outcome,
   Tally& tally = stations_[node].tally;
   switch (outcome) {
     case SendOutcome::kSent:
-      ++tally.sent_group;
+      ++tally.sent;
       break;
     case SendOutcome::kAcknowledged:
       ++tally.acknowledged;
@@ -227,6 +254,9 @@ void Air::finished(std::uint32_t node, const Msdu& msdu, SendOutcome outcome,
       break;
     case SendOutcome::kRetryLimit:
       ++tally.dropped_retry_limit;
+      break;
+    case SendOutcome::kTooLong:
+      ++tally.dropped_too_long;
       break;
   }
   release(msdu.frame);

@@ -11,7 +11,7 @@
 #include "netsim/air/tally.h"
 #include "netsim/channel/channel.h"
 #include "netsim/kernel/event_queue.h"
-#include "netsim/mac/dcf.h"
+#include "netsim/mac/mac.h"
 #include "netsim/phy/receiver.h"
 
 namespace cuscus::netsim {
@@ -63,6 +63,8 @@ struct AirParameters {
   std::uint32_t long_retry_limit{7};  ///< Attempts of data after an RTS.
   /// PSDUs above this many bytes are sent after RTS and CTS.
   std::uint32_t rts_threshold_bytes{std::numeric_limits<std::uint32_t>::max()};
+  std::string mac{"dcf"};
+  TdmaSchedule tdma{};  ///< Of the MAC "tdma".
   std::uint32_t queue_frames{500};
   Duration queue_lifetime{std::chrono::milliseconds{500}};
   std::string error_model{"nist"};
@@ -161,11 +163,11 @@ class Air final : private MacHost {
     double received_mw;
   };
   struct Station {
-    Station(const ReceiverModel& model, std::uint32_t node, const MacParameters& mac, MacHost& host,
-            std::unique_ptr<RateControl> rate_control, std::uint64_t seed);
+    Station(const ReceiverModel& model, std::uint32_t node, std::uint64_t seed,
+            std::unique_ptr<RateControl> rate_control);
     Receiver receiver;
     std::unique_ptr<RateControl> rates;
-    Dcf dcf;
+    std::unique_ptr<Mac> mac;
     Tally tally{};
     bool busy{false};
     std::array<EventId, kMacTimers> timers{};

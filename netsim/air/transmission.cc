@@ -209,11 +209,11 @@ void Air::sweep_one(Transmission& transmission, Phase phase, Arrival& arrival) {
         case Receiver::Header::kNotMine:
           break;
         case Receiver::Header::kDecoded:
-          station.dcf.reception_started(now_);
+          station.mac->reception_started(now_);
           update_medium(arrival.receiver);
           break;
         case Receiver::Header::kFailed:
-          station.dcf.reception_failed(now_);
+          station.mac->reception_failed(now_);
           update_medium(arrival.receiver);
           break;
       }
@@ -241,13 +241,13 @@ void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
       pending_[frame.frame].destination_cause = arrival.cause;
     }
     if (end == Receiver::End::kFailed) {
-      station.dcf.reception_failed(now_);
+      station.mac->reception_failed(now_);
     }
     update_medium(receiver);
     return;
   }
   station.rates->heard(frame.sender, power_mw / receiver_model_.noise_mw());
-  const bool deliver = station.dcf.received(now_, frame, *transmission.timing.mode);
+  const bool deliver = station.mac->received(now_, frame, *transmission.timing.mode);
   update_medium(receiver);
   if (deliver) {
     ++station.tally.received;
@@ -280,9 +280,9 @@ void Air::update_medium(std::uint32_t node) {
   }
   station.busy = busy;
   if (busy) {
-    station.dcf.medium_busy(now_);
+    station.mac->medium_busy(now_);
   } else {
-    station.dcf.medium_idle(now_);
+    station.mac->medium_idle(now_);
   }
 }
 

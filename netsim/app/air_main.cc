@@ -33,6 +33,8 @@ struct Options {
   std::vector<double> basic_rates_mbps{6.0, 12.0, 24.0};
   bool short_preamble{false};
   double slot_us{0.0};
+  double tdma_slot_ms{2.5};
+  double tdma_guard_us{10.0};
   double carrier_ghz{2.412};
   double detection_dbm{-82.0};
   double detection_sinr_db{4.0};
@@ -89,6 +91,15 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--rate-control", o.run.air.rate_control, "Of individually addressed frames")
       ->check(CLI::IsMember({"constant", "ideal", "aarf", "minstrel"}))
       ->capture_default_str();
+  app.add_option("--mac", o.run.air.mac, "Medium access")
+      ->check(CLI::IsMember({"dcf", "tdma"}))
+      ->capture_default_str();
+  app.add_option("--tdma-slot", o.tdma_slot_ms, "One for every node in turn [ms]")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--tdma-guard", o.tdma_guard_us, "At the end of a slot [us]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_option("--basic-rates", o.basic_rates_mbps, "[Mb/s]")->capture_default_str();
   app.add_flag("--short-preamble", o.short_preamble, "Of DSSS and CCK rates");
   app.add_option("--rts-threshold", o.run.air.rts_threshold_bytes,
@@ -142,6 +153,8 @@ void apply(Options& o) {
   }
   air.dsss_preamble = o.short_preamble ? DsssPreamble::kShort : DsssPreamble::kLong;
   air.slot = nanoseconds(o.slot_us * 1e-6);
+  air.tdma.slot = nanoseconds(o.tdma_slot_ms * 1e-3);
+  air.tdma.guard = nanoseconds(o.tdma_guard_us * 1e-6);
   air.channel.carrier_hz = o.carrier_ghz * 1e9;
   if (o.no_detection) {
     o.detection_dbm = -std::numeric_limits<double>::infinity();
@@ -161,15 +174,17 @@ void print(const Options& o, const SyntheticResult& r, double wall_s) {
     sum.dropped_queue_full += t.dropped_queue_full;
     sum.dropped_lifetime += t.dropped_lifetime;
     sum.dropped_retry_limit += t.dropped_retry_limit;
+    sum.dropped_too_long += t.dropped_too_long;
   }
   std::cout << "traffic,cast,layout,nodes,payload_B,rate_kbps,group_rate_kbps,seed,measure_s,"
                "goodput_mbps,delivery_ratio,attempt_success,attempts_per_frame,drops_per_s,jain,"
                "delay_mean_us,delay_p50_us,delay_p99_us,delay_max_us,round_trip_us,"
                "lost_below_detection,lost_noise,lost_collision,lost_half_duplex,"
-               "dropped_queue_full,dropped_lifetime,dropped_retry_limit,receptions,events,wall_s\n"
+               "dropped_queue_full,dropped_lifetime,dropped_retry_limit,dropped_too_long,"
+               "receptions,events,wall_s\n"
             << fmt::format(
                    "{},{},{},{},{},{},{},{},{:.3f},{:.4f},{:.5f},{:.4f},{:.4f},{:.2f},{:.4f},"
-                   "{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{},{},{},{},{},{},{},{},{},{:.3f}\n",
+                   "{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{},{},{},{},{},{},{},{},{},{},{:.3f}\n",
                    o.traffic, o.unicast ? "ucast" : "bcast", o.layout, o.run.senders,
                    o.run.traffic.udp_payload_bytes, o.run.air.data_rate_kbps,
                    o.run.air.group_rate_kbps, o.run.air.seed, o.duration_s, r.goodput_mbps,
@@ -177,7 +192,8 @@ void print(const Options& o, const SyntheticResult& r, double wall_s) {
                    r.delay_mean_us, r.delay_p50_us, r.delay_p99_us, r.delay_max_us,
                    r.round_trip_mean_us, sum.lost_below_detection, sum.lost_noise,
                    sum.lost_collision, sum.lost_half_duplex, sum.dropped_queue_full,
-                   sum.dropped_lifetime, sum.dropped_retry_limit, r.receptions, r.events, wall_s);
+                   sum.dropped_lifetime, sum.dropped_retry_limit, sum.dropped_too_long,
+                   r.receptions, r.events, wall_s);
 }
 
 int run(int argc, char** argv) {

@@ -11,8 +11,8 @@
 namespace cuscus::netsim {
 namespace {
 
-constexpr std::array<std::string_view, 5> kOutcomes{"sent", "acknowledged", "queue-full",
-                                                    "lifetime", "retry-limit"};
+constexpr std::array<std::string_view, 6> kOutcomes{"sent",     "acknowledged", "queue-full",
+                                                    "lifetime", "retry-limit",  "too-long"};
 
 /// Cuts the text up to the next comma off `line`.
 std::string_view next_field(std::string_view& line) {
@@ -127,6 +127,10 @@ void for_each_common(Parameters& p, const Field& field) {
   field("retry_limit", p.retry_limit);
   field("long_retry_limit", p.long_retry_limit);
   field("rts_threshold_bytes", p.rts_threshold_bytes);
+  field("mac", p.mac);
+  field("tdma_slot_ns", p.tdma.slot);
+  field("tdma_guard_ns", p.tdma.guard);
+  field("tdma_frame", p.tdma.frame);
   field("queue_frames", p.queue_frames);
   field("queue_lifetime_ns", p.queue_lifetime);
   field("error_model", p.error_model);

@@ -322,7 +322,7 @@ shm::RadioTally LiveAir::tally(std::uint32_t node) const {
           .dropped_queue_full = air.dropped_queue_full + port.refused,
           .dropped_lifetime = air.dropped_lifetime,
           .dropped_retry_limit = air.dropped_retry_limit,
-          .dropped_malformed = port.malformed,
+          .dropped_malformed = port.malformed + air.dropped_too_long,
           .dropped_before_air = port.before_air,
           .lost_below_detection = air.lost_below_detection,
           .lost_noise = air.lost_noise,

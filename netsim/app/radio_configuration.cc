@@ -21,6 +21,10 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
   air.retry_limit = c.retry_limit();
   air.long_retry_limit = c.long_retry_limit();
   air.rts_threshold_bytes = c.rts_threshold_bytes();
+  air.mac = c.mac();
+  air.tdma = {.slot = Duration{c.tdma().slot_ns()},
+              .guard = Duration{c.tdma().guard_ns()},
+              .frame = {c.tdma().frame().begin(), c.tdma().frame().end()}};
   air.queue_frames = c.queue_frames();
   air.queue_lifetime = Duration{c.queue_lifetime_ns()};
   air.error_model = c.error_model();

@@ -3,104 +3,11 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <span>
 #include <vector>
 
-#include "common/random/counter_stream.h"
-#include "common/units/sim_time.h"
-#include "netsim/mac/rate_control.h"
-#include "netsim/phy/standard.h"
+#include "netsim/mac/mac.h"
 
 namespace cuscus::netsim {
-
-/// To whom a frame goes: a node's number, or one of these.
-inline constexpr std::int32_t kGroup = -1;   ///< Broadcast or multicast.
-inline constexpr std::int32_t kNobody = -2;  ///< An address that no node has.
-
-/// A frame in a station's queue.
-struct Msdu {
-  std::uint32_t frame{};  ///< The caller's number for it.
-  std::int32_t destination{kGroup};
-  std::uint32_t psdu_bytes{};
-  SimTime queued_at{};
-};
-
-/// A frame on the air.
-struct MacFrame {
-  enum class Kind : std::uint8_t { kData, kAck, kRts, kCts };
-  Kind kind{Kind::kData};
-  std::uint32_t sender{};
-  std::int32_t receiver{kGroup};
-  std::uint32_t frame{};     ///< Of the Msdu; data and RTS only.
-  std::uint32_t sequence{};  ///< Per sender, kept in retries; data only.
-  Duration duration{};  ///< The Duration field: for how long after its end the medium is taken.
-};
-
-/// What became of an Msdu at its sender.
-enum class SendOutcome : std::uint8_t {
-  kSent,          ///< Group frame: put on the air once.
-  kAcknowledged,  ///< Individually addressed: confirmed.
-  kQueueFull,
-  kLifetime,  ///< Waited too long for its first attempt.
-  kRetryLimit,
-};
-
-/// Of a station; all stations of a run share one.
-struct MacParameters {
-  Duration slot{};
-  Duration sifs{};
-  Duration difs{};
-  Duration eifs{};
-  std::uint32_t cw_min{};
-  std::uint32_t cw_max{};
-  std::uint32_t short_retry_limit{};    ///< Attempts of RTS, and of data without.
-  std::uint32_t long_retry_limit{};     ///< Attempts of data after an RTS.
-  std::uint32_t rts_threshold_bytes{};  ///< PSDUs above this are sent after RTS and CTS.
-  std::uint32_t queue_frames{};
-  Duration queue_lifetime{};  ///< Until the first attempt; after that the retry limit rules.
-  const Mode*
-      data_mode{};  ///< Of individually addressed frames, until a rate control knows better.
-  const Mode* group_mode{};
-  const Mode* rts_mode{};
-  const Standard* standard{};
-  std::vector<const Mode*> answers{};  ///< To frames of each mode of the standard.
-
-  /// DIFS, EIFS and control rates that follow from a standard and its basic rates. RTS is sent at
-  /// the rate at which the data would be answered.
-  [[nodiscard]] static MacParameters from(const Standard& standard, Duration slot,
-                                          std::uint32_t data_rate_kbps,
-                                          std::uint32_t group_rate_kbps,
-                                          std::span<const std::uint32_t> basic_rates_kbps,
-                                          ControlAnswerRule rule = ControlAnswerRule::kSameClass);
-
-  /// At what rate a frame of this mode is answered.
-  [[nodiscard]] const Mode& answer_to(const Mode& mode) const {
-    return *answers[static_cast<std::size_t>(&mode - standard->modes.data())];
-  }
-  /// From the end of one's own frame to giving up on the PHY-RXSTART of its answer (10.3.2.9).
-  [[nodiscard]] Duration answer_timeout(const Mode& mode) const {
-    return sifs + slot + answer_to(mode).format->receive_start_delay;
-  }
-};
-
-enum class MacTimer : std::uint8_t { kAccess, kResponse, kAnswerTimeout, kNavReset };
-inline constexpr std::size_t kMacTimers = 4;
-
-/// What a station asks of the world around it.
-class MacHost {
- public:
-  virtual ~MacHost() = default;
-
-  /// Puts a frame on the air at once. The host calls transmission_ended() after its airtime.
-  virtual void transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
-                        std::uint32_t psdu_bytes) = 0;
-  /// Calls timer() at `time`; replaces the timer of that kind.
-  virtual void set_timer(std::uint32_t node, MacTimer timer, SimTime time) = 0;
-  virtual void cancel_timer(std::uint32_t node, MacTimer timer) = 0;
-  /// The station is done with an Msdu.
-  virtual void finished(std::uint32_t node, const Msdu& msdu, SendOutcome outcome,
-                        std::uint32_t attempts) = 0;
-};
 
 /// One station's distributed coordination function (IEEE Std 802.11-2016, 10.3).
 ///
@@ -121,26 +28,20 @@ class MacHost {
 ///   NAV is set does not answer it.
 /// - Receivers acknowledge after SIFS whatever the medium does, and drop repeated frames of a
 /// sender.
-///
-/// Times must not decrease from call to call.
-class Dcf {
+class Dcf final : public Mac {
  public:
   /// `parameters`, `host` and `rates` must outlive this object.
   Dcf(std::uint32_t node, const MacParameters& parameters, MacHost& host, RateControl& rates,
       random::CounterStream backoffs);
 
-  void enqueue(SimTime now, const Msdu& msdu);
-
-  // What the PHY says.
-  void medium_busy(SimTime now);
-  void medium_idle(SimTime now);
-  void reception_started(SimTime now);  ///< SIGNAL field decoded: PHY-RXSTART.
-  void reception_failed(SimTime now);
-  /// True when the frame is for this station and is not a repetition.
-  bool received(SimTime now, const MacFrame& frame, const Mode& mode);
-  void transmission_ended(SimTime now);
-
-  void timer(SimTime now, MacTimer timer);
+  void enqueue(SimTime now, const Msdu& msdu) override;
+  void medium_busy(SimTime now) override;
+  void medium_idle(SimTime now) override;
+  void reception_started(SimTime now) override;
+  void reception_failed(SimTime now) override;
+  bool received(SimTime now, const MacFrame& frame, const Mode& mode) override;
+  void transmission_ended(SimTime now) override;
+  void timer(SimTime now, MacTimer timer) override;
 
   [[nodiscard]] std::size_t queued() const { return queue_.size(); }
   [[nodiscard]] std::uint32_t contention_window() const { return cw_; }

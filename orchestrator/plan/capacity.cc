@@ -7,8 +7,11 @@
 namespace cuscus::orchestrator {
 namespace {
 
+using scenario::airtime_s;
 using scenario::Attach;
 using scenario::NeighbourSource;
+using scenario::psdu_airtime_s;
+using scenario::psdu_bytes;
 
 // Processor time, measured. A copy through bridge and veth costs about twice a direct one; a
 // spinning MAC thread sleeps except for the last 150 us before an event.
@@ -36,34 +39,21 @@ double sifs_s(scenario::RadioStandard standard) {
   }
 }
 
-/// DIFS and the mean of the first backoff, of 0 ... 15 slots (802.11b: 31).
+/// DIFS and the mean of the first backoff, of 0 ... 15 slots (802.11b: 31); TDMA has neither.
 double contention_s(const scenario::Radio& radio) {
+  if (std::holds_alternative<scenario::TdmaMac>(radio.mac)) {
+    return 0.0;
+  }
   const double mean_backoff_slots = radio.standard == scenario::RadioStandard::k80211b ? 15.5 : 7.5;
   return sifs_s(radio.standard) + (2.0 + mean_backoff_slots) * seconds(radio.slot);
 }
-
-double psdu_airtime_s(const scenario::Radio& radio, std::uint32_t psdu_bytes,
-                      std::uint32_t rate_kbps) {
-  const double rate_Mbps = rate_kbps / 1000.0;
-  const bool is_dsss =
-      rate_kbps == 1000 || rate_kbps == 2000 || rate_kbps == 5500 || rate_kbps == 11000;
-  if (is_dsss) {
-    const bool is_short = radio.dsss_preamble == scenario::DsssPreamble::kShort && rate_kbps > 1000;
-    return ((is_short ? 96.0 : 192.0) + std::ceil(8.0 * psdu_bytes / rate_Mbps)) * 1e-6;
-  }
-  const double scale = radio.standard == scenario::RadioStandard::k80211p ? 2.0 : 1.0;
-  const double extension = radio.standard == scenario::RadioStandard::k80211g ? 6.0 : 0.0;
-  const double symbols = std::ceil((16.0 + 8.0 * psdu_bytes + 6.0) / (4.0 * scale * rate_Mbps));
-  return (scale * (20.0 + 4.0 * symbols) + extension) * 1e-6;
-}
-
-std::uint32_t psdu_bytes(std::uint32_t ip_bytes) { return 24 + 8 + ip_bytes + 4; }
 
 /// RTS and CTS at the lowest basic rate, with SIFS after each, before a frame above the threshold.
 double announcement_s(const scenario::Radio& radio, std::uint32_t ip_bytes) {
   constexpr std::uint32_t kRts_bytes = 20;
   constexpr std::uint32_t kCts_bytes = 14;
-  if (!radio.rts_threshold_bytes || psdu_bytes(ip_bytes) <= *radio.rts_threshold_bytes) {
+  if (!std::holds_alternative<scenario::DcfMac>(radio.mac) || !radio.rts_threshold_bytes ||
+      psdu_bytes(ip_bytes) <= *radio.rts_threshold_bytes) {
     return 0.0;
   }
   const std::uint32_t rate_kbps = radio.basic_rates_kbps.front();
@@ -73,16 +63,15 @@ double announcement_s(const scenario::Radio& radio, std::uint32_t ip_bytes) {
 
 }  // namespace
 
-double airtime_s(const scenario::Radio& radio, std::uint32_t ip_bytes, std::uint32_t rate_kbps) {
-  return psdu_airtime_s(radio, psdu_bytes(ip_bytes), rate_kbps);
-}
-
 CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
   const double others = scenario.node_count() - 1.0;
   const scenario::Radio& radio = scenario.radio;
   constexpr std::uint32_t kAck_bytes = 14;
-  const double ack_s =
-      sifs_s(radio.standard) + psdu_airtime_s(radio, kAck_bytes, radio.basic_rates_kbps.front());
+  const bool acknowledges = std::holds_alternative<scenario::DcfMac>(radio.mac);
+  const double ack_s = acknowledges
+                           ? sifs_s(radio.standard) +
+                                 psdu_airtime_s(radio, kAck_bytes, radio.basic_rates_kbps.front())
+                           : 0.0;
   const double telemetry_s = airtime_s(radio, kTelemetry_bytes, radio.data_rate_kbps) + ack_s +
                              announcement_s(radio, kTelemetry_bytes);
   CapacityEstimate estimate;

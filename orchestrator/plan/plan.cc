@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -338,6 +339,22 @@ class Planner {
       entry.set_mac(std::string{node.mac.begin(), node.mac.end()});
       entry.set_tx_power_dbm(from.tx_power.value);
       entry.set_antenna_gain_db(from.antenna_gain.value);
+    }
+    plan_slots();
+  }
+
+  void plan_slots() {
+    constexpr std::int32_t kNobody = -2;
+    const auto* const tdma = std::get_if<scenario::TdmaMac>(&scenario_.radio.mac);
+    if (tdma == nullptr) {
+      return;
+    }
+    std::map<std::string, std::int32_t> numbers{{std::string{scenario::kNoOwner}, kNobody}};
+    for (const NodePlan& node : plan_.nodes) {
+      numbers[node.name] = static_cast<std::int32_t>(node.index);
+    }
+    for (const std::string& owner : tdma->frame) {
+      plan_.radio.mutable_tdma()->add_frame(numbers.at(owner));
     }
   }
 

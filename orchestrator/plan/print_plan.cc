@@ -79,6 +79,9 @@ std::string radio_terms(const proto::RadioConfiguration& radio) {
   if (radio.propagation().fading() != "none") {
     out += ", fading " + radio.propagation().fading();
   }
+  if (radio.mac() != "dcf") {
+    out += ", " + radio.mac();
+  }
   if (radio.rate_control() != "constant") {
     out += ", rate control " + radio.rate_control();
   }
@@ -133,6 +136,7 @@ Json to_json(const Plan& plan) {
             {"group_rate_kbps", plan.radio.group_rate_kbps()},
             {"carrier_hz", plan.radio.carrier_hz()},
             {"rate_control", plan.radio.rate_control()},
+            {"mac", plan.radio.mac()},
             {"propagation", plan.radio.propagation().model()},
             {"shadowing_db", plan.radio.propagation().shadowing_db()},
             {"fading", plan.radio.propagation().fading()}}},

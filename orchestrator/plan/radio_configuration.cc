@@ -92,6 +92,12 @@ proto::RadioConfiguration radio_configuration(const scenario::Radio& from, std::
   radio.set_long_retry_limit(from.long_retry_limit);
   radio.set_rts_threshold_bytes(
       from.rts_threshold_bytes.value_or(std::numeric_limits<std::uint32_t>::max()));
+  const auto* const tdma = std::get_if<scenario::TdmaMac>(&from.mac);
+  radio.set_mac(tdma != nullptr ? "tdma" : "dcf");
+  if (tdma != nullptr) {
+    radio.mutable_tdma()->set_slot_ns(tdma->slot.count());
+    radio.mutable_tdma()->set_guard_ns(tdma->guard.count());
+  }
   radio.set_queue_frames(from.queue_frames);
   radio.set_queue_lifetime_ns(from.queue_lifetime.count());
   radio.set_error_model(name_of(scenario::kErrorModelNames, from.error_model));

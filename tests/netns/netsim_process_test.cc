@@ -43,6 +43,7 @@ proto::RadioConfiguration configuration() {
   c.set_long_retry_limit(7);
   c.set_rate_control("constant");
   c.set_rts_threshold_bytes(0xffffffff);
+  c.set_mac("dcf");
   c.set_queue_frames(500);
   c.set_queue_lifetime_ns(500'000'000);
   c.set_error_model("nist");

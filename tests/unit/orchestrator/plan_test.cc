@@ -262,6 +262,38 @@ TEST_CASE("Fading, shadowing and RTS reach the radio's configuration") {
         3.5);
 }
 
+TEST_CASE("Slots go to nodes by number, and to nobody where they have no owner") {
+  const auto radio_of = [](const std::string& mac) {
+    return plan_of(R"({"name": "t", "fleet": [{"count": 2}], "radio": {"mac": )" + mac + "}}")
+        .radio;
+  };
+
+  const proto::RadioConfiguration named =
+      radio_of(R"({"model": "tdma", "slot": "3 ms", "frame": ["gcs", "-", "uav1"]})");
+  CHECK(named.mac() == "tdma");
+  CHECK(named.tdma().slot_ns() == 3'000'000);
+  CHECK(named.tdma().guard_ns() == 10'000);
+  REQUIRE(named.tdma().frame_size() == 3);
+  CHECK(named.tdma().frame(0) == 2);
+  CHECK(named.tdma().frame(1) == -2);
+  CHECK(named.tdma().frame(2) == 1);
+  CHECK(radio_of(R"({"model": "tdma"})").tdma().frame_size() == 0);
+  CHECK(radio_of(R"({"model": "dcf"})").mac() == "dcf");
+  CHECK_FALSE(radio_of(R"({"model": "dcf"})").has_tdma());
+}
+
+TEST_CASE("The estimate of a TDMA air has neither backoff nor ACK") {
+  const auto busy = [](const std::string& radio) {
+    return plan_of(R"({"name": "t", "fleet": [{"count": 10}], "radio": )" + radio + "}")
+        .capacity.air_busy_fraction;
+  };
+
+  // Per second and UAV 20 beacons and 5 reports: DIFS and 7.5 slots of 20 us each, and after a
+  // report SIFS and an ACK of 50 us.
+  CHECK(busy("{}") - busy(R"({"mac": {"model": "tdma"}})") ==
+        Approx(250.0 * 200e-6 + 50.0 * 60e-6));
+}
+
 TEST_CASE("Time on air is the standard's") {
   // A 64 B IP packet is a PSDU of 100 B, a 1500 B one of 1536 B. IEEE Std 802.11-2020, 17.4.3:
   // 20 us + 4 us ceil((22 + 8 L) / N_DBPS), and 6 us signal extension (18.3.2.4).
@@ -297,6 +329,7 @@ TEST_CASE("The plan's text says what is not as in the default radio") {
   CHECK_THAT(text(R"({"shadowing": {"deviation": "5 dB"}, "fading": {"model": "nakagami"},
                       "rate_control": "aarf"})"),
              Catch::Contains("friis, shadowing 5 dB, fading nakagami, rate control aarf\n"));
+  CHECK_THAT(text(R"({"mac": {"model": "tdma"}})"), Catch::Contains("friis, tdma\n"));
   CHECK_THAT(text("{}"), Catch::Contains("friis\n"));
 }
 

@@ -97,6 +97,8 @@ TEST_CASE("The scenario written out in full is the same scenario") {
   for (
       const char* const radio :
       {R"({"standard": "802.11p", "fading": {"model": "nakagami", "m": 2.5}})",
+       R"({"mac": {"model": "tdma", "slot": "4 ms", "guard": "1 us", "frame": ["gcs", "-", "uav0"]}})",
+       R"({"mac": {"model": "tdma"}})", R"({"mac": {"model": "dcf"}})",
        R"({"standard": "802.11b", "fading": {"model": "rayleigh"}})", R"({"standard": "802.11a"})",
        R"({"propagation": {"model": "two-ray", "ground": "wet", "roughness": "5 cm"}})",
        R"({"propagation": {"model": "p1411", "bound": "upper"}})",

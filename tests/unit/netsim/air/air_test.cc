@@ -153,7 +153,7 @@ Tally total_of(Field& field, std::size_t nodes) {
   for (std::uint32_t node = 0; node < nodes; ++node) {
     const Tally& t = field.air.tally(node);
     total.offered += t.offered;
-    total.sent_group += t.sent_group;
+    total.sent += t.sent;
     total.acknowledged += t.acknowledged;
     total.received += t.received;
     total.dropped_queue_full += t.dropped_queue_full;
@@ -183,7 +183,7 @@ TEST_CASE("every offered frame has one outcome and every reception one cause") {
 
   CHECK(t.offered == std::uint64_t{12} * 40);
   CHECK(field.reports.size() == t.offered);
-  CHECK(t.sent_group + t.acknowledged + t.dropped_queue_full + t.dropped_lifetime +
+  CHECK(t.sent + t.acknowledged + t.dropped_queue_full + t.dropped_lifetime +
             t.dropped_retry_limit ==
         t.offered);
   // Group frames that went on the air have 11 receptions each; others one, if they went at all.

@@ -58,6 +58,9 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   parameters.dsss_preamble = DsssPreamble::kShort;
   parameters.long_retry_limit = 4;
   parameters.rate_control = "minstrel";
+  parameters.mac = "tdma";
+  parameters.tdma = {
+      .slot = Duration{3'000'000}, .guard = Duration{7'000}, .frame = {2, kNobody, 0}};
   parameters.channel.fading = "rice";
   parameters.channel.k_factor = {3.5};
   parameters.channel.polarisation = Polarisation::kHorizontal;
@@ -89,6 +92,10 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.air.dsss_preamble == DsssPreamble::kShort);
   CHECK(log.air.long_retry_limit == 4);
   CHECK(log.air.rate_control == "minstrel");
+  CHECK(log.air.mac == "tdma");
+  CHECK(log.air.tdma.slot == parameters.tdma.slot);
+  CHECK(log.air.tdma.guard == parameters.tdma.guard);
+  CHECK(log.air.tdma.frame == parameters.tdma.frame);
   CHECK(log.air.channel.fading == "rice");
   CHECK(log.air.channel.k_factor == parameters.channel.k_factor);
   CHECK(log.air.channel.k_factor_overhead == parameters.channel.k_factor_overhead);

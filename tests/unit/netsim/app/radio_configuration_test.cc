@@ -28,6 +28,11 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   c.set_long_retry_limit(4);
   c.set_rts_threshold_bytes(500);
   c.set_rate_control("aarf");
+  c.set_mac("tdma");
+  c.mutable_tdma()->set_slot_ns(3'000'000);
+  c.mutable_tdma()->set_guard_ns(7'000);
+  c.mutable_tdma()->add_frame(0);
+  c.mutable_tdma()->add_frame(kNobody);
   c.set_queue_frames(10);
   c.set_queue_lifetime_ns(1'000);
   c.set_error_model("yans");
@@ -74,6 +79,10 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   CHECK(air.long_retry_limit == 4);
   CHECK(air.rts_threshold_bytes == 500);
   CHECK(air.rate_control == "aarf");
+  CHECK(air.mac == "tdma");
+  CHECK(air.tdma.slot == Duration{3'000'000});
+  CHECK(air.tdma.guard == Duration{7'000});
+  CHECK(air.tdma.frame == std::vector<std::int32_t>{0, kNobody});
   CHECK(air.queue_frames == 10);
   CHECK(air.queue_lifetime == Duration{1'000});
   CHECK(air.error_model == "yans");
