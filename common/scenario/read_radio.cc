@@ -216,6 +216,8 @@ Radio read_radio(const json* value, Problems& problems) {
   radio.shadowing =
       read_shadowing(reader.child("shadowing"), reader.path_of("shadowing"), problems);
   radio.fading = read_fading(reader.child("fading"), reader.path_of("fading"), problems);
+  radio.disruption =
+      read_disruption(reader.child("disruption"), reader.path_of("disruption"), problems);
   reader.finish();
   return radio;
 }

@@ -93,6 +93,13 @@ struct Capture {
   std::optional<Decibel> frame;  ///< After it; nothing: never.
 };
 
+/// For a part of every interval nobody receives anything: the paper's network disruption.
+struct Disruption {
+  double fraction{0.4};  ///< The paper's gamma.
+  Duration interval{std::chrono::seconds{1}};
+  std::optional<Duration> phase{Duration{0}};  ///< Offset in the interval; nothing: at random.
+};
+
 struct Radio {
   RadioStandard standard{RadioStandard::k80211g};
   std::uint32_t data_rate_kbps{6000};   ///< Individually addressed frames.
@@ -121,6 +128,7 @@ struct Radio {
   Propagation propagation{FriisPropagation{}};
   std::optional<Shadowing> shadowing;
   Fading fading{NoFading{}};
+  std::optional<Disruption> disruption;
 };
 
 enum class Attach { kBridge, kDirect };

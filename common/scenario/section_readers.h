@@ -20,6 +20,9 @@ namespace cuscus::scenario {
                                                       const std::string& path, Problems& problems);
 [[nodiscard]] Fading read_fading(const nlohmann::json* value, const std::string& path,
                                  Problems& problems);
+[[nodiscard]] std::optional<Disruption> read_disruption(const nlohmann::json* value,
+                                                        const std::string& path,
+                                                        Problems& problems);
 [[nodiscard]] Network read_network(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] World read_world(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] GroundStation read_ground_station(const nlohmann::json* value, Problems& problems);

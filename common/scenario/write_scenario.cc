@@ -73,6 +73,15 @@ Json json_of(const std::optional<Shadowing>& shadowing) {
           {"decorrelation", format_quantity(shadowing->decorrelation_m, kLength)}};
 }
 
+Json json_of(const std::optional<Disruption>& disruption) {
+  if (!disruption) {
+    return "none";
+  }
+  return {{"fraction", disruption->fraction},
+          {"interval", text(disruption->interval)},
+          {"phase", disruption->phase ? text(*disruption->phase) : "random"}};
+}
+
 Json json_of(const Radio& radio) {
   Json basic_rates = Json::array();
   for (const std::uint32_t rate_kbps : radio.basic_rates_kbps) {
@@ -116,7 +125,8 @@ Json json_of(const Radio& radio) {
           {"propagation",
            std::visit([](const auto& model) { return json_of(model); }, radio.propagation)},
           {"shadowing", json_of(radio.shadowing)},
-          {"fading", std::visit([](const auto& model) { return json_of(model); }, radio.fading)}};
+          {"fading", std::visit([](const auto& model) { return json_of(model); }, radio.fading)},
+          {"disruption", json_of(radio.disruption)}};
 }
 
 Json json_of(const World& world) {

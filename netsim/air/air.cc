@@ -83,6 +83,9 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
       radios_{parameters.nodes},
       positions_{&positions},
       listener_{&listener} {
+  if (parameters.disruption.fraction != 0.0) {
+    disruption_.emplace(parameters.disruption);
+  }
   require(!radios_.empty() && radios_.size() <= 65'535, "there must be 1 to 65535 nodes");
   require(positions.positions(SimTime{}).size() >= radios_.size(), "a node has no position");
   RateSetting rates = rate_setting(*standard_, *mac_.data_mode, *errors_);

@@ -10,6 +10,7 @@
 
 #include "netsim/air/tally.h"
 #include "netsim/channel/channel.h"
+#include "netsim/channel/disruption.h"
 #include "netsim/kernel/event_queue.h"
 #include "netsim/mac/dcf.h"
 #include "netsim/phy/receiver.h"
@@ -77,6 +78,7 @@ struct AirParameters {
   /// not interference either. One adds less than 1 % to the noise.
   Decibel arrival_floor_below_noise{20.0};
   ChannelParameters channel{};
+  DisruptionParameters disruption{};
   std::vector<AirNode> nodes{};
 };
 
@@ -209,6 +211,7 @@ class Air final : private MacHost {
   [[nodiscard]] static std::uint64_t rank_of_phase(Phase phase, std::uint32_t index);
   void sweep(std::uint32_t index, Phase phase, SimTime limit);
   void sweep_one(Transmission& transmission, Phase phase, Arrival& arrival);
+  [[nodiscard]] bool disrupted(const Transmission& transmission, const Arrival& arrival) const;
   void finish_arrival(Transmission& transmission, Arrival& arrival);
   void end_of_sweeps(std::uint32_t index);
   void update_medium(std::uint32_t node);
@@ -222,6 +225,7 @@ class Air final : private MacHost {
   std::unique_ptr<const ErrorModel> errors_;
   ReceiverModel receiver_model_;
   Channel channel_;
+  std::optional<Disruption> disruption_;
   double floor_mw_;
   double reach_floor_mw_;  ///< What is below on average is below the floor in every frame.
   Duration shortest_airtime_;

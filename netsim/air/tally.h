@@ -26,6 +26,7 @@ struct Tally {
   std::uint64_t lost_noise{};
   std::uint64_t lost_collision{};
   std::uint64_t lost_half_duplex{};
+  std::uint64_t lost_jammed{};
 
   void count(LossCause cause) {
     switch (cause) {
@@ -42,6 +43,9 @@ struct Tally {
         break;
       case LossCause::kHalfDuplex:
         ++lost_half_duplex;
+        break;
+      case LossCause::kJammed:
+        ++lost_jammed;
         break;
     }
   }

@@ -227,12 +227,25 @@ void Air::sweep_one(Transmission& transmission, Phase phase, Arrival& arrival) {
   }
 }
 
+/// Nobody receives a frame any part of which is on the air while the network is disrupted. Carrier
+/// sense is as ever: what is cut is the connectivity, not the power.
+bool Air::disrupted(const Transmission& transmission, const Arrival& arrival) const {
+  return disruption_ &&
+         disruption_->overlaps(
+             transmission.phase_at[static_cast<std::size_t>(Phase::kBegin)] + arrival.delay,
+             transmission.phase_at[static_cast<std::size_t>(Phase::kEnergyEnds)] + arrival.delay);
+}
+
 void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
   const MacFrame frame = transmission.frame;
   const std::uint32_t receiver = arrival.receiver;
   const double power_mw = arrival.power_mw;
   Station& station = stations_[receiver];
-  const Receiver::End end = station.receiver.finish(arrival);
+  Receiver::End end = station.receiver.finish(arrival);
+  if (end == Receiver::End::kDecoded && disrupted(transmission, arrival)) {
+    end = Receiver::End::kFailed;
+    arrival.cause = LossCause::kJammed;
+  }
   const bool data = frame.kind == MacFrame::Kind::kData;
   if (end != Receiver::End::kDecoded) {
     if (data && frame.receiver == kGroup) {

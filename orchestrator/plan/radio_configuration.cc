@@ -89,6 +89,12 @@ proto::RadioConfiguration radio_configuration(const scenario::Radio& from, std::
   radio.set_capture_in_preamble_db(
       captures_from(from.capture ? std::optional{from.capture->preamble} : std::nullopt));
   radio.set_capture_in_frame_db(captures_from(from.capture ? from.capture->frame : std::nullopt));
+  if (const auto& disruption = from.disruption) {
+    radio.set_disruption_fraction(disruption->fraction);
+    radio.set_disruption_interval_ns(disruption->interval.count());
+    radio.set_disruption_offset_ns(disruption->phase.value_or(scenario::Duration{0}).count());
+    radio.set_disruption_at_random(!disruption->phase);
+  }
   *radio.mutable_propagation() = propagation_of(from);
   return radio;
 }

@@ -97,6 +97,8 @@ TEST_CASE("The scenario written out in full is the same scenario") {
   for (const char* const radio :
        {R"({"standard": "802.11p", "fading": {"model": "nakagami", "m": 2.5}})",
         R"({"standard": "802.11b", "fading": {"model": "rayleigh"}})", R"({"standard": "802.11a"})",
+        R"({"disruption": {"fraction": 0.7, "interval": "2 s", "phase": "500 ms"}})",
+        R"({"disruption": {"phase": "random"}})",
         R"({"propagation": {"model": "two-ray", "ground": "wet", "roughness": "5 cm"}})"}) {
     scenarios.push_back(
         parse(R"({"name": "t", "fleet": [{}], "radio": )" + std::string{radio} + "}"));

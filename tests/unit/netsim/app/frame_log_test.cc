@@ -59,6 +59,7 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   parameters.long_retry_limit = 4;
   parameters.rate_control = "minstrel";
   parameters.channel.fading = "rice";
+  parameters.disruption = {.fraction = 0.4, .phase = DisruptionPhase::kRandom, .seed = 77};
   parameters.channel.k_factor = {3.5};
   parameters.channel.polarisation = Polarisation::kHorizontal;
   parameters.rts_threshold_bytes = 500;
@@ -90,6 +91,9 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.air.long_retry_limit == 4);
   CHECK(log.air.rate_control == "minstrel");
   CHECK(log.air.channel.fading == "rice");
+  CHECK(log.air.disruption.fraction == 0.4);
+  CHECK(log.air.disruption.phase == DisruptionPhase::kRandom);
+  CHECK(log.air.disruption.seed == 77);
   CHECK(log.air.channel.k_factor == parameters.channel.k_factor);
   CHECK(log.air.channel.k_factor_overhead == parameters.channel.k_factor_overhead);
   CHECK(log.air.channel.polarisation == Polarisation::kHorizontal);
