@@ -93,6 +93,16 @@ struct Capture {
   std::optional<Decibel> frame;  ///< After it; nothing: never.
 };
 
+struct IsotropicAntenna {};
+struct DipoleAntenna {};  ///< Half-wave, along the body's z axis.
+/// Rows of one elevation each, from -90 to 90 degrees; in a row by azimuth, from 0 degrees (ahead)
+/// counter-clockwise; both evenly spaced.
+struct PatternAntenna {
+  std::vector<std::vector<double>> gains_dBi;
+};
+
+using Antenna = std::variant<IsotropicAntenna, DipoleAntenna, PatternAntenna>;
+
 /// For a part of every interval nobody receives anything: the paper's network disruption.
 struct Disruption {
   double fraction{0.4};  ///< The paper's gamma.
@@ -110,7 +120,8 @@ struct Radio {
   DsssPreamble dsss_preamble{DsssPreamble::kLong};  ///< Of DSSS and CCK rates.
   double channel_frequency_hz{2.437e9};
   DecibelMilliwatt tx_power{16.0};
-  Decibel antenna_gain{0.0};
+  Decibel antenna_gain{0.0};  ///< Besides the antenna's.
+  Antenna antenna{IsotropicAntenna{}};
   Decibel noise_figure{7.0};
   Duration slot{std::chrono::microseconds{20}};
   std::uint32_t retry_limit{7};       ///< Attempts of RTS, and of data without.

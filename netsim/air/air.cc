@@ -77,6 +77,7 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
       errors_{make_error_model(parameters.error_model)},
       receiver_model_{receiver_parameters(parameters, *standard_), *errors_},
       channel_{parameters.channel},
+      antenna_{make_antenna(parameters.antenna)},
       floor_mw_{receiver_model_.noise_mw() / parameters.arrival_floor_below_noise.ratio()},
       reach_floor_mw_{floor_mw_ / channel_.greatest_frame_gain().ratio()},
       shortest_airtime_{shortest_airtime(*standard_)},

@@ -49,6 +49,11 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
                  .residual_doppler_hz = p.residual_doppler_hz(),
                  .nakagami_m = p.nakagami_m(),
                  .seed = c.seed()};
+  if (!c.antenna().empty()) {
+    air.antenna = {.model = c.antenna(),
+                   .pattern_dbi = {c.antenna_pattern_dbi().begin(), c.antenna_pattern_dbi().end()},
+                   .pattern_azimuths = c.antenna_pattern_azimuths()};
+  }
   air.disruption = {
       .fraction = c.disruption_fraction(),
       .interval = Duration{c.disruption_interval_ns()},

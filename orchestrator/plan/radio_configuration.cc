@@ -24,6 +24,20 @@ void add_fading(const scenario::Fading& from, proto::PropagationConfiguration& r
   }
 }
 
+void add_antenna(const scenario::Antenna& from, proto::RadioConfiguration& result) {
+  if (const auto* pattern = std::get_if<scenario::PatternAntenna>(&from)) {
+    result.set_antenna("pattern");
+    result.set_antenna_pattern_azimuths(
+        static_cast<std::uint32_t>(pattern->gains_dBi.front().size()));
+    for (const auto& row : pattern->gains_dBi) {
+      result.mutable_antenna_pattern_dbi()->Add(row.begin(), row.end());
+    }
+  } else {
+    result.set_antenna(std::holds_alternative<scenario::DipoleAntenna>(from) ? "dipole"
+                                                                             : "isotropic");
+  }
+}
+
 proto::PropagationConfiguration propagation_of(const scenario::Radio& radio) {
   proto::PropagationConfiguration result;
   const scenario::Propagation& from = radio.propagation;
@@ -89,6 +103,7 @@ proto::RadioConfiguration radio_configuration(const scenario::Radio& from, std::
   radio.set_capture_in_preamble_db(
       captures_from(from.capture ? std::optional{from.capture->preamble} : std::nullopt));
   radio.set_capture_in_frame_db(captures_from(from.capture ? from.capture->frame : std::nullopt));
+  add_antenna(from.antenna, radio);
   if (const auto& disruption = from.disruption) {
     radio.set_disruption_fraction(disruption->fraction);
     radio.set_disruption_interval_ns(disruption->interval.count());

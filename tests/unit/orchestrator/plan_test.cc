@@ -262,6 +262,21 @@ TEST_CASE("Fading, shadowing and RTS reach the radio's configuration") {
         3.5);
 }
 
+TEST_CASE("An antenna reaches the radio's configuration") {
+  const auto radio_of = [](const std::string& antenna) {
+    return plan_of(R"({"name": "t", "fleet": [{}], "radio": {"antenna": )" + antenna + "}}").radio;
+  };
+
+  CHECK(radio_of("\"isotropic\"").antenna() == "isotropic");
+  CHECK(radio_of("\"dipole\"").antenna() == "dipole");
+  const auto pattern = radio_of(R"({"gains": [[1, 2, 3], [4, 5, 6.5]]})");
+  CHECK(pattern.antenna() == "pattern");
+  CHECK(pattern.antenna_pattern_azimuths() == 3);
+  REQUIRE(pattern.antenna_pattern_dbi_size() == 6);
+  CHECK(pattern.antenna_pattern_dbi(2) == 3.0);
+  CHECK(pattern.antenna_pattern_dbi(5) == 6.5);
+}
+
 TEST_CASE("A disruption reaches the radio's configuration") {
   const auto radio_of = [](const std::string& disruption) {
     return plan_of(R"({"name": "t", "fleet": [{}], "radio": {"disruption": )" + disruption + "}}")

@@ -59,6 +59,7 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   parameters.long_retry_limit = 4;
   parameters.rate_control = "minstrel";
   parameters.channel.fading = "rice";
+  parameters.antenna = {.model = "pattern", .pattern_dbi = {1.25, -2.0}, .pattern_azimuths = 1};
   parameters.disruption = {.fraction = 0.4, .phase = DisruptionPhase::kRandom, .seed = 77};
   parameters.channel.k_factor = {3.5};
   parameters.channel.polarisation = Polarisation::kHorizontal;
@@ -91,6 +92,9 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.air.long_retry_limit == 4);
   CHECK(log.air.rate_control == "minstrel");
   CHECK(log.air.channel.fading == "rice");
+  CHECK(log.air.antenna.model == "pattern");
+  CHECK(log.air.antenna.pattern_dbi == std::vector<double>{1.25, -2.0});
+  CHECK(log.air.antenna.pattern_azimuths == 1);
   CHECK(log.air.disruption.fraction == 0.4);
   CHECK(log.air.disruption.phase == DisruptionPhase::kRandom);
   CHECK(log.air.disruption.seed == 77);

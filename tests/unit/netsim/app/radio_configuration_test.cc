@@ -55,6 +55,10 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   p.set_k_factor_overhead_db(14.5);
   p.set_residual_doppler_hz(0.75);
   p.set_nakagami_m(1.25);
+  c.set_antenna("pattern");
+  c.add_antenna_pattern_dbi(1.5);
+  c.add_antenna_pattern_dbi(-2.5);
+  c.set_antenna_pattern_azimuths(1);
   c.set_disruption_fraction(0.7);
   c.set_disruption_interval_ns(2'000'000);
   c.set_disruption_offset_ns(300);
@@ -101,6 +105,9 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   CHECK(air.channel.residual_doppler_hz == 0.75);
   CHECK(air.channel.nakagami_m == 1.25);
   CHECK(air.channel.seed == 5);
+  CHECK(air.antenna.model == "pattern");
+  CHECK(air.antenna.pattern_dbi == std::vector<double>{1.5, -2.5});
+  CHECK(air.antenna.pattern_azimuths == 1);
   CHECK(air.disruption.fraction == 0.7);
   CHECK(air.disruption.interval == Duration{2'000'000});
   CHECK(air.disruption.offset == Duration{300});
