@@ -147,4 +147,28 @@ Fading read_fading(const json* value, const std::string& path, Problems& problem
   }
 }
 
+std::optional<Disruption> read_disruption(const json* value, const std::string& path,
+                                          Problems& problems) {
+  if (value == nullptr || is_none(value, path, "fraction, interval and phase", problems)) {
+    return std::nullopt;
+  }
+  Disruption disruption;
+  ObjectReader reader{value, path, problems};
+  disruption.fraction = reader.number("fraction", disruption.fraction, {0.0, 1.0});
+  disruption.interval = reader.duration("interval", disruption.interval, "10 ms", "1 h");
+  const json* phase = reader.child("phase");
+  if (phase != nullptr && *phase == "random") {
+    disruption.phase.reset();
+  } else if (phase != nullptr) {
+    disruption.phase = reader.duration("phase", Duration{0}, "0 s", "1 h");
+    if (*disruption.phase > disruption.interval) {
+      reader.problem("phase", shown(*phase) +
+                                  " is beyond the interval; allowed: random, or a time " +
+                                  "of at most the interval");
+    }
+  }
+  reader.finish();
+  return disruption;
+}
+
 }  // namespace cuscus::scenario

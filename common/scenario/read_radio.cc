@@ -177,7 +177,7 @@ Radio default_radio(RadioStandard standard) {
   return radio;
 }
 
-Radio read_radio(const json* value, Problems& problems) {
+Radio read_radio(const json* value, const std::filesystem::path& folder, Problems& problems) {
   ObjectReader reader{value, "/radio", problems};
   Radio radio =
       default_radio(reader.choice("standard", RadioStandard::k80211g, kRadioStandardNames));
@@ -198,6 +198,8 @@ Radio read_radio(const json* value, Problems& problems) {
       reader.quantity("tx_power", radio.tx_power.value, {kPower, "-50 dBm", "50 dBm"});
   radio.antenna_gain.value =
       reader.quantity("antenna_gain", radio.antenna_gain.value, {kPowerRatio, "-30 dB", "40 dB"});
+  radio.antenna =
+      read_antenna(reader.child("antenna"), reader.path_of("antenna"), folder, problems);
   radio.noise_figure.value =
       reader.quantity("noise_figure", radio.noise_figure.value, {kPowerRatio, "0 dB", "30 dB"});
   radio.slot = reader.duration("slot", radio.slot, "9 us", "1 ms");
@@ -217,6 +219,8 @@ Radio read_radio(const json* value, Problems& problems) {
   radio.shadowing =
       read_shadowing(reader.child("shadowing"), reader.path_of("shadowing"), problems);
   radio.fading = read_fading(reader.child("fading"), reader.path_of("fading"), problems);
+  radio.disruption =
+      read_disruption(reader.child("disruption"), reader.path_of("disruption"), problems);
   reader.finish();
   return radio;
 }

@@ -63,7 +63,7 @@ Scenario read_document(const json& document, const std::filesystem::path& folder
   scenario.duration = reader.duration("duration", scenario.duration, "1 s", "24 h");
   scenario.clock = read_clock(reader);
   scenario.realtime = reader.boolean("realtime", scenario.realtime);
-  scenario.radio = read_radio(reader.child("radio"), problems);
+  scenario.radio = read_radio(reader.child("radio"), folder, problems);
   scenario.network = read_network(reader.child("network"), problems);
   scenario.world = read_world(reader.child("world"), problems);
   scenario.fleet = read_fleet(reader.child("fleet"), folder, problems);

@@ -142,6 +142,23 @@ inline constexpr std::string_view kNoOwner = "-";
 
 using Mac = std::variant<DcfMac, TdmaMac>;
 
+struct IsotropicAntenna {};
+struct DipoleAntenna {};  ///< Half-wave, along the body's z axis.
+/// Rows of one elevation each, from -90 to 90 degrees; in a row by azimuth, from 0 degrees (ahead)
+/// counter-clockwise; both evenly spaced.
+struct PatternAntenna {
+  std::vector<std::vector<double>> gains_dBi;
+};
+
+using Antenna = std::variant<IsotropicAntenna, DipoleAntenna, PatternAntenna>;
+
+/// For a part of every interval nobody receives anything: the paper's network disruption.
+struct Disruption {
+  double fraction{0.4};  ///< The paper's gamma.
+  Duration interval{std::chrono::seconds{1}};
+  std::optional<Duration> phase{Duration{0}};  ///< Offset in the interval; nothing: at random.
+};
+
 struct Radio {
   RadioStandard standard{RadioStandard::k80211g};
   std::uint32_t data_rate_kbps{6000};   ///< Individually addressed frames.
@@ -152,7 +169,8 @@ struct Radio {
   DsssPreamble dsss_preamble{DsssPreamble::kLong};  ///< Of DSSS and CCK rates.
   double channel_frequency_hz{2.437e9};
   DecibelMilliwatt tx_power{16.0};
-  Decibel antenna_gain{0.0};
+  Decibel antenna_gain{0.0};  ///< Besides the antenna's.
+  Antenna antenna{IsotropicAntenna{}};
   Decibel noise_figure{7.0};
   Duration slot{std::chrono::microseconds{20}};
   std::uint32_t retry_limit{7};       ///< Attempts of RTS, and of data without.
@@ -171,6 +189,7 @@ struct Radio {
   Propagation propagation{FriisPropagation{}};
   std::optional<Shadowing> shadowing;
   Fading fading{NoFading{}};
+  std::optional<Disruption> disruption;
 };
 
 enum class Attach { kBridge, kDirect };

@@ -13,7 +13,10 @@
 // to `problems`.
 namespace cuscus::scenario {
 
-[[nodiscard]] Radio read_radio(const nlohmann::json* value, Problems& problems);
+[[nodiscard]] Radio read_radio(const nlohmann::json* value, const std::filesystem::path& folder,
+                               Problems& problems);
+[[nodiscard]] Antenna read_antenna(const nlohmann::json* value, const std::string& path,
+                                   const std::filesystem::path& folder, Problems& problems);
 [[nodiscard]] Propagation read_propagation(const nlohmann::json* value, const std::string& path,
                                            Problems& problems);
 [[nodiscard]] std::optional<Shadowing> read_shadowing(const nlohmann::json* value,
@@ -22,6 +25,9 @@ namespace cuscus::scenario {
                                  Problems& problems);
 [[nodiscard]] Mac read_mac(const nlohmann::json* value, const std::string& path,
                            Problems& problems);
+[[nodiscard]] std::optional<Disruption> read_disruption(const nlohmann::json* value,
+                                                        const std::string& path,
+                                                        Problems& problems);
 [[nodiscard]] Network read_network(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] World read_world(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] GroundStation read_ground_station(const nlohmann::json* value, Problems& problems);

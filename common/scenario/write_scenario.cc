@@ -106,6 +106,19 @@ Json json_of(const TdmaMac& tdma) {
           {"frame", tdma.frame.empty() ? Json("nodes") : Json(tdma.frame)}};
 }
 
+Json json_of(const IsotropicAntenna& /*antenna*/) { return "isotropic"; }
+Json json_of(const DipoleAntenna& /*antenna*/) { return "dipole"; }
+Json json_of(const PatternAntenna& antenna) { return {{"gains", antenna.gains_dBi}}; }
+
+Json json_of(const std::optional<Disruption>& disruption) {
+  if (!disruption) {
+    return "none";
+  }
+  return {{"fraction", disruption->fraction},
+          {"interval", text(disruption->interval)},
+          {"phase", disruption->phase ? text(*disruption->phase) : "random"}};
+}
+
 Json json_of(const Radio& radio) {
   Json basic_rates = Json::array();
   for (const std::uint32_t rate_kbps : radio.basic_rates_kbps) {
@@ -123,34 +136,37 @@ Json json_of(const Radio& radio) {
     capture = {{"preamble", format_quantity(preamble.value, kPowerRatio)},
                {"frame", frame ? Json(format_quantity(frame->value, kPowerRatio)) : Json("none")}};
   }
-  return {{"standard", name_of(kRadioStandardNames, radio.standard)},
-          {"data_rate", bit_rate_text(radio.data_rate_kbps)},
-          {"group_rate", bit_rate_text(radio.group_rate_kbps)},
-          {"rate_control", name_of(kRateControlNames, radio.rate_control)},
-          {"basic_rates", basic_rates},
-          {"control_answer", name_of(kControlAnswerNames, radio.control_answer)},
-          {"preamble", name_of(kDsssPreambleNames, radio.dsss_preamble)},
-          {"channel_frequency", format_quantity(radio.channel_frequency_hz, kFrequency)},
-          {"tx_power", format_quantity(radio.tx_power.value, kPower)},
-          {"antenna_gain", format_quantity(radio.antenna_gain.value, kPowerRatio)},
-          {"noise_figure", format_quantity(radio.noise_figure.value, kPowerRatio)},
-          {"slot", text(radio.slot)},
-          {"retry_limit", radio.retry_limit},
-          {"long_retry_limit", radio.long_retry_limit},
-          {"rts_threshold",
-           radio.rts_threshold_bytes ? Json(*radio.rts_threshold_bytes) : Json("none")},
-          {"mac", std::visit([](const auto& mac) { return json_of(mac); }, radio.mac)},
-          {"queue", {{"frames", radio.queue_frames}, {"lifetime", text(radio.queue_lifetime)}}},
-          {"error_model", name_of(kErrorModelNames, radio.error_model)},
-          {"cca",
-           {{"preamble", format_quantity(radio.cca_preamble.value, kPower)},
-            {"energy", format_quantity(radio.cca_energy.value, kPower)}}},
-          {"preamble_detection", detection},
-          {"capture", capture},
-          {"propagation",
-           std::visit([](const auto& model) { return json_of(model); }, radio.propagation)},
-          {"shadowing", json_of(radio.shadowing)},
-          {"fading", std::visit([](const auto& model) { return json_of(model); }, radio.fading)}};
+  return {
+      {"standard", name_of(kRadioStandardNames, radio.standard)},
+      {"data_rate", bit_rate_text(radio.data_rate_kbps)},
+      {"group_rate", bit_rate_text(radio.group_rate_kbps)},
+      {"rate_control", name_of(kRateControlNames, radio.rate_control)},
+      {"basic_rates", basic_rates},
+      {"control_answer", name_of(kControlAnswerNames, radio.control_answer)},
+      {"preamble", name_of(kDsssPreambleNames, radio.dsss_preamble)},
+      {"channel_frequency", format_quantity(radio.channel_frequency_hz, kFrequency)},
+      {"tx_power", format_quantity(radio.tx_power.value, kPower)},
+      {"antenna_gain", format_quantity(radio.antenna_gain.value, kPowerRatio)},
+      {"antenna", std::visit([](const auto& antenna) { return json_of(antenna); }, radio.antenna)},
+      {"noise_figure", format_quantity(radio.noise_figure.value, kPowerRatio)},
+      {"slot", text(radio.slot)},
+      {"retry_limit", radio.retry_limit},
+      {"long_retry_limit", radio.long_retry_limit},
+      {"rts_threshold",
+       radio.rts_threshold_bytes ? Json(*radio.rts_threshold_bytes) : Json("none")},
+      {"mac", std::visit([](const auto& mac) { return json_of(mac); }, radio.mac)},
+      {"queue", {{"frames", radio.queue_frames}, {"lifetime", text(radio.queue_lifetime)}}},
+      {"error_model", name_of(kErrorModelNames, radio.error_model)},
+      {"cca",
+       {{"preamble", format_quantity(radio.cca_preamble.value, kPower)},
+        {"energy", format_quantity(radio.cca_energy.value, kPower)}}},
+      {"preamble_detection", detection},
+      {"capture", capture},
+      {"propagation",
+       std::visit([](const auto& model) { return json_of(model); }, radio.propagation)},
+      {"shadowing", json_of(radio.shadowing)},
+      {"fading", std::visit([](const auto& model) { return json_of(model); }, radio.fading)},
+      {"disruption", json_of(radio.disruption)}};
 }
 
 Json json_of(const World& world) {

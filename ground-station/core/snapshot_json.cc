@@ -114,6 +114,7 @@ void write(JsonWriter& json, const shm::RadioTally& tally) {
   field(json, "noise", tally.lost_noise);
   field(json, "collision", tally.lost_collision);
   field(json, "half_duplex", tally.lost_half_duplex);
+  field(json, "jammed", tally.lost_jammed);
   field(json, "interface", tally.lost_interface);
   json.end_object();
 }

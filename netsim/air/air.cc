@@ -98,12 +98,16 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
       errors_{make_error_model(parameters.error_model)},
       receiver_model_{receiver_parameters(parameters, *standard_), *errors_},
       channel_{parameters.channel},
+      antenna_{make_antenna(parameters.antenna)},
       floor_mw_{receiver_model_.noise_mw() / parameters.arrival_floor_below_noise.ratio()},
       reach_floor_mw_{floor_mw_ / channel_.greatest_frame_gain().ratio()},
       shortest_airtime_{shortest_airtime(*standard_)},
       radios_{parameters.nodes},
       positions_{&positions},
       listener_{&listener} {
+  if (parameters.disruption.fraction != 0.0) {
+    disruption_.emplace(parameters.disruption);
+  }
   require(!radios_.empty() && radios_.size() <= 65'535, "there must be 1 to 65535 nodes");
   require(positions.positions(SimTime{}).size() >= radios_.size(), "a node has no position");
   RateSetting rates = rate_setting(*standard_, *mac_.data_mode, *errors_);

@@ -5,11 +5,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "netsim/air/tally.h"
+#include "netsim/channel/antenna.h"
 #include "netsim/channel/channel.h"
+#include "netsim/channel/disruption.h"
 #include "netsim/kernel/event_queue.h"
 #include "netsim/mac/mac.h"
 #include "netsim/phy/receiver.h"
@@ -23,28 +26,36 @@ class PositionSource {
 
   /// Of all nodes, by number, ENU [m]; valid until the next call.
   [[nodiscard]] virtual const std::vector<Eigen::Vector3d>& positions(SimTime now) = 0;
-  /// Changes whenever positions() has changed: link losses are kept while it stays.
+  /// How they are turned, q_WB by number, at the latest positions(); valid as long. Empty: all are
+  /// level and face east.
+  [[nodiscard]] virtual std::span<const Eigen::Quaterniond> attitudes() const { return {}; }
+  /// Changes whenever positions() or attitudes() has changed: link losses are kept while it stays.
   [[nodiscard]] virtual std::uint64_t version() const = 0;
 };
 
 /// Nodes that do not move.
 class FixedPositions final : public PositionSource {
  public:
-  explicit FixedPositions(std::vector<Eigen::Vector3d> p_WN) : p_WN_{std::move(p_WN)} {}
+  /// `q_WN` may be empty (see attitudes()).
+  explicit FixedPositions(std::vector<Eigen::Vector3d> p_WN,
+                          std::vector<Eigen::Quaterniond> q_WN = {})
+      : p_WN_{std::move(p_WN)}, q_WN_{std::move(q_WN)} {}
 
   [[nodiscard]] const std::vector<Eigen::Vector3d>& positions(SimTime /*now*/) override {
     return p_WN_;
   }
+  [[nodiscard]] std::span<const Eigen::Quaterniond> attitudes() const override { return q_WN_; }
   [[nodiscard]] std::uint64_t version() const override { return 1; }
 
  private:
   std::vector<Eigen::Vector3d> p_WN_;
+  std::vector<Eigen::Quaterniond> q_WN_;
 };
 
 /// Radio of one node.
 struct AirNode {
   DecibelMilliwatt tx_power{16.0206};
-  Decibel antenna_gain{0.0};  ///< At either end of a link.
+  Decibel antenna_gain{0.0};  ///< At either end of a link, besides AirParameters::antenna.
 };
 
 /// What a scenario says about the air.
@@ -79,6 +90,8 @@ struct AirParameters {
   /// not interference either. One adds less than 1 % to the noise.
   Decibel arrival_floor_below_noise{20.0};
   ChannelParameters channel{};
+  DisruptionParameters disruption{};
+  AntennaParameters antenna{};
   std::vector<AirNode> nodes{};
 };
 
@@ -206,11 +219,13 @@ class Air final : private MacHost {
   void finished(std::uint32_t node, const Msdu& msdu, SendOutcome outcome,
                 std::uint32_t attempts) override;
 
+  [[nodiscard]] Decibel antenna_gains(std::uint32_t a, std::uint32_t b);
   void update_reach(std::uint32_t sender);
   void spread(Transmission& transmission, std::uint32_t sender);
   [[nodiscard]] static std::uint64_t rank_of_phase(Phase phase, std::uint32_t index);
   void sweep(std::uint32_t index, Phase phase, SimTime limit);
   void sweep_one(Transmission& transmission, Phase phase, Arrival& arrival);
+  [[nodiscard]] bool disrupted(const Transmission& transmission, const Arrival& arrival) const;
   void finish_arrival(Transmission& transmission, Arrival& arrival);
   void end_of_sweeps(std::uint32_t index);
   void update_medium(std::uint32_t node);
@@ -224,6 +239,8 @@ class Air final : private MacHost {
   std::unique_ptr<const ErrorModel> errors_;
   ReceiverModel receiver_model_;
   Channel channel_;
+  std::unique_ptr<const Antenna> antenna_;  ///< Nothing: isotropic.
+  std::optional<Disruption> disruption_;
   double floor_mw_;
   double reach_floor_mw_;  ///< What is below on average is below the floor in every frame.
   Duration shortest_airtime_;

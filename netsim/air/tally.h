@@ -27,6 +27,7 @@ struct Tally {
   std::uint64_t lost_noise{};
   std::uint64_t lost_collision{};
   std::uint64_t lost_half_duplex{};
+  std::uint64_t lost_jammed{};
 
   void count(LossCause cause) {
     switch (cause) {
@@ -43,6 +44,9 @@ struct Tally {
         break;
       case LossCause::kHalfDuplex:
         ++lost_half_duplex;
+        break;
+      case LossCause::kJammed:
+        ++lost_jammed;
         break;
     }
   }

@@ -32,6 +32,16 @@ std::uint32_t Air::new_transmission() {
   return static_cast<std::uint32_t>(transmissions_.size() - 1);
 }
 
+Decibel Air::antenna_gains(std::uint32_t a, std::uint32_t b) {
+  const auto& positions = positions_->positions(now_);
+  const auto attitudes = positions_->attitudes();
+  const auto pose = [&](std::uint32_t node) {
+    return attitudes.empty() ? AntennaPose{.p_WB = positions[node]}
+                             : AntennaPose{.p_WB = positions[node], .q_WB = attitudes[node]};
+  };
+  return gain_of_both(*antenna_, pose(a), pose(b));
+}
+
 void Air::update_reach(std::uint32_t sender) {
   const auto& positions = positions_->positions(now_);
   Station& station = stations_[sender];
@@ -51,8 +61,11 @@ void Air::update_reach(std::uint32_t sender) {
   for (Reach& reach : station.reach) {
     const Decibel loss = channel_.static_loss(
         Link::between(sender, positions[sender], reach.receiver, positions[reach.receiver]));
-    const DecibelMilliwatt received =
+    DecibelMilliwatt received =
         radio.tx_power + radio.antenna_gain + radios_[reach.receiver].antenna_gain - loss;
+    if (antenna_) {
+      received = received + antenna_gains(sender, reach.receiver);
+    }
     const double distance_m = (positions[sender] - positions[reach.receiver]).norm();
     reach.delay = Duration{std::llround(distance_m / kSpeedOfLight_mps * 1e9)};
     reach.received_dbm = received.value;
@@ -227,12 +240,25 @@ void Air::sweep_one(Transmission& transmission, Phase phase, Arrival& arrival) {
   }
 }
 
+/// Nobody receives a frame any part of which is on the air while the network is disrupted. Carrier
+/// sense is as ever: what is cut is the connectivity, not the power.
+bool Air::disrupted(const Transmission& transmission, const Arrival& arrival) const {
+  return disruption_ &&
+         disruption_->overlaps(
+             transmission.phase_at[static_cast<std::size_t>(Phase::kBegin)] + arrival.delay,
+             transmission.phase_at[static_cast<std::size_t>(Phase::kEnergyEnds)] + arrival.delay);
+}
+
 void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
   const MacFrame frame = transmission.frame;
   const std::uint32_t receiver = arrival.receiver;
   const double power_mw = arrival.power_mw;
   Station& station = stations_[receiver];
-  const Receiver::End end = station.receiver.finish(arrival);
+  Receiver::End end = station.receiver.finish(arrival);
+  if (end == Receiver::End::kDecoded && disrupted(transmission, arrival)) {
+    end = Receiver::End::kFailed;
+    arrival.cause = LossCause::kJammed;
+  }
   const bool data = frame.kind == MacFrame::Kind::kData;
   if (end != Receiver::End::kDecoded) {
     if (data && frame.receiver == kGroup) {

@@ -6,7 +6,9 @@
 namespace cuscus::netsim {
 
 FleetPositions::FleetPositions(const shm::FleetMemoryReader& fleet, std::uint32_t nodes)
-    : fleet_{&fleet}, p_WB_(nodes, Eigen::Vector3d::Zero()) {
+    : fleet_{&fleet},
+      p_WB_(nodes, Eigen::Vector3d::Zero()),
+      q_WB_(nodes, Eigen::Quaterniond::Identity()) {
   if (fleet.node_count() < nodes) {
     throw std::invalid_argument{"fleet memory has " + std::to_string(fleet.node_count()) +
                                 " nodes and the radio " + std::to_string(nodes)};
@@ -27,6 +29,11 @@ const std::vector<Eigen::Vector3d>& FleetPositions::positions(SimTime /*now*/) {
       continue;
     }
     p_WB_[node] = Eigen::Vector3d{state->p_WB_m.data()};
+    const auto& [w, x, y, z] = state->q_WB;
+    const Eigen::Quaterniond q_WB{w, x, y, z};
+    if (q_WB.coeffs().allFinite() && q_WB.norm() > 0.0) {
+      q_WB_[node] = q_WB.normalized();
+    }
   }
   ++version_;
   return p_WB_;

@@ -163,6 +163,14 @@ void for_each_common(Parameters& p, const Field& field) {
   field("k_factor_overhead_db", p.channel.k_factor_overhead.value);
   field("residual_doppler_hz", p.channel.residual_doppler_hz);
   field("nakagami_m", p.channel.nakagami_m);
+  field("antenna", p.antenna.model);
+  field("antenna_pattern_dbi", p.antenna.pattern_dbi);
+  field("antenna_pattern_azimuths", p.antenna.pattern_azimuths);
+  field("disruption_fraction", p.disruption.fraction);
+  field("disruption_interval_ns", p.disruption.interval);
+  field("disruption_phase", p.disruption.phase);
+  field("disruption_offset_ns", p.disruption.offset);
+  field("disruption_seed", p.disruption.seed);
 }
 
 }  // namespace

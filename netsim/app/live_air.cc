@@ -328,6 +328,7 @@ shm::RadioTally LiveAir::tally(std::uint32_t node) const {
           .lost_noise = air.lost_noise,
           .lost_collision = air.lost_collision,
           .lost_half_duplex = air.lost_half_duplex,
+          .lost_jammed = air.lost_jammed,
           .lost_interface = port.lost_interface};
 }
 

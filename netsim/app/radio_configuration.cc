@@ -58,6 +58,17 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
                  .residual_doppler_hz = p.residual_doppler_hz(),
                  .nakagami_m = p.nakagami_m(),
                  .seed = c.seed()};
+  if (!c.antenna().empty()) {
+    air.antenna = {.model = c.antenna(),
+                   .pattern_dbi = {c.antenna_pattern_dbi().begin(), c.antenna_pattern_dbi().end()},
+                   .pattern_azimuths = c.antenna_pattern_azimuths()};
+  }
+  air.disruption = {
+      .fraction = c.disruption_fraction(),
+      .interval = Duration{c.disruption_interval_ns()},
+      .phase = c.disruption_at_random() ? DisruptionPhase::kRandom : DisruptionPhase::kFixed,
+      .offset = Duration{c.disruption_offset_ns()},
+      .seed = c.seed()};
   air.nodes.resize(static_cast<std::size_t>(c.nodes_size()));
   for (int i = 0; i < c.nodes_size(); ++i) {
     const proto::RadioNode& node = c.nodes(i);

@@ -18,6 +18,7 @@ enum class LossCause : std::uint8_t {
   kNoise,           ///< Detected; decoding would have failed without interference too.
   kCollision,       ///< Not detected, or not decoded, because of interference.
   kHalfDuplex,      ///< The node was transmitting.
+  kJammed,          ///< Would have been received, had nobody jammed.
 };
 
 /// What all receivers of a run have in common.

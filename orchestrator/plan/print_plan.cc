@@ -82,6 +82,13 @@ std::string radio_terms(const proto::RadioConfiguration& radio) {
   if (radio.mac() != "dcf") {
     out += ", " + radio.mac();
   }
+  if (radio.antenna() != "isotropic") {
+    out += ", antenna " + radio.antenna();
+  }
+  if (radio.disruption_fraction() > 0.0) {
+    out += fmt::format(", disrupted {} % of every {} s", 100.0 * radio.disruption_fraction(),
+                       static_cast<double>(radio.disruption_interval_ns()) * 1e-9);
+  }
   if (radio.rate_control() != "constant") {
     out += ", rate control " + radio.rate_control();
   }

@@ -24,6 +24,20 @@ void add_fading(const scenario::Fading& from, proto::PropagationConfiguration& r
   }
 }
 
+void add_antenna(const scenario::Antenna& from, proto::RadioConfiguration& result) {
+  if (const auto* pattern = std::get_if<scenario::PatternAntenna>(&from)) {
+    result.set_antenna("pattern");
+    result.set_antenna_pattern_azimuths(
+        static_cast<std::uint32_t>(pattern->gains_dBi.front().size()));
+    for (const auto& row : pattern->gains_dBi) {
+      result.mutable_antenna_pattern_dbi()->Add(row.begin(), row.end());
+    }
+  } else {
+    result.set_antenna(std::holds_alternative<scenario::DipoleAntenna>(from) ? "dipole"
+                                                                             : "isotropic");
+  }
+}
+
 void set_line_of_sight(const scenario::LineOfSight& from, proto::PropagationConfiguration& result) {
   result.set_line_of_sight(from.mean ? "mean" : "drawn");
   result.set_line_of_sight_decorrelation_m(from.decorrelation_m);
@@ -114,6 +128,13 @@ proto::RadioConfiguration radio_configuration(const scenario::Radio& from, std::
   radio.set_capture_in_preamble_db(
       captures_from(from.capture ? std::optional{from.capture->preamble} : std::nullopt));
   radio.set_capture_in_frame_db(captures_from(from.capture ? from.capture->frame : std::nullopt));
+  add_antenna(from.antenna, radio);
+  if (const auto& disruption = from.disruption) {
+    radio.set_disruption_fraction(disruption->fraction);
+    radio.set_disruption_interval_ns(disruption->interval.count());
+    radio.set_disruption_offset_ns(disruption->phase.value_or(scenario::Duration{0}).count());
+    radio.set_disruption_at_random(!disruption->phase);
+  }
   *radio.mutable_propagation() = propagation_of(from);
   return radio;
 }

@@ -31,6 +31,7 @@ constexpr std::array kCounters{
     std::pair{"lost_noise", &RadioTally::lost_noise},
     std::pair{"lost_collision", &RadioTally::lost_collision},
     std::pair{"lost_half_duplex", &RadioTally::lost_half_duplex},
+    std::pair{"lost_jammed", &RadioTally::lost_jammed},
     std::pair{"lost_interface", &RadioTally::lost_interface},
 };
 

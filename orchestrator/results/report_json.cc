@@ -73,6 +73,7 @@ Json json_of(const shm::RadioTally& tally) {
           {"lost_noise", tally.lost_noise},
           {"lost_collision", tally.lost_collision},
           {"lost_half_duplex", tally.lost_half_duplex},
+          {"lost_jammed", tally.lost_jammed},
           {"lost_interface", tally.lost_interface}};
 }
 

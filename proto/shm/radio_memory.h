@@ -30,6 +30,7 @@ struct RadioTally {
   std::uint64_t lost_noise;            ///< Detected, decoding failed without interference.
   std::uint64_t lost_collision;        ///< Decoding or detection failed under interference.
   std::uint64_t lost_half_duplex;      ///< The node was transmitting.
+  std::uint64_t lost_jammed;           ///< Would have been received, had nobody jammed.
   /// Received, but the interface did not take it (down, full), or netsim was over 1 s late.
   std::uint64_t lost_interface;
 };

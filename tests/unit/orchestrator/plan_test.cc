@@ -294,6 +294,37 @@ TEST_CASE("The estimate of a TDMA air has neither backoff nor ACK") {
         Approx(250.0 * 200e-6 + 50.0 * 60e-6));
 }
 
+TEST_CASE("An antenna reaches the radio's configuration") {
+  const auto radio_of = [](const std::string& antenna) {
+    return plan_of(R"({"name": "t", "fleet": [{}], "radio": {"antenna": )" + antenna + "}}").radio;
+  };
+
+  CHECK(radio_of("\"isotropic\"").antenna() == "isotropic");
+  CHECK(radio_of("\"dipole\"").antenna() == "dipole");
+  const auto pattern = radio_of(R"({"gains": [[1, 2, 3], [4, 5, 6.5]]})");
+  CHECK(pattern.antenna() == "pattern");
+  CHECK(pattern.antenna_pattern_azimuths() == 3);
+  REQUIRE(pattern.antenna_pattern_dbi_size() == 6);
+  CHECK(pattern.antenna_pattern_dbi(2) == 3.0);
+  CHECK(pattern.antenna_pattern_dbi(5) == 6.5);
+}
+
+TEST_CASE("A disruption reaches the radio's configuration") {
+  const auto radio_of = [](const std::string& disruption) {
+    return plan_of(R"({"name": "t", "fleet": [{}], "radio": {"disruption": )" + disruption + "}}")
+        .radio;
+  };
+
+  CHECK(radio_of("\"none\"").disruption_fraction() == 0.0);
+  const auto fixed = radio_of(R"({"fraction": 0.7, "interval": "2 s", "phase": "500 ms"})");
+  CHECK(fixed.disruption_fraction() == 0.7);
+  CHECK(fixed.disruption_interval_ns() == 2'000'000'000);
+  CHECK(fixed.disruption_offset_ns() == 500'000'000);
+  CHECK_FALSE(fixed.disruption_at_random());
+  CHECK(radio_of(R"({"phase": "random"})").disruption_at_random());
+  CHECK(radio_of("{}").disruption_fraction() == 0.4);
+}
+
 TEST_CASE("Time on air is the standard's") {
   // A 64 B IP packet is a PSDU of 100 B, a 1500 B one of 1536 B. IEEE Std 802.11-2020, 17.4.3:
   // 20 us + 4 us ceil((22 + 8 L) / N_DBPS), and 6 us signal extension (18.3.2.4).

@@ -1,5 +1,7 @@
 #include "common/scenario/scenario.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -98,7 +100,10 @@ TEST_CASE("The scenario written out in full is the same scenario") {
       const char* const radio :
       {R"({"standard": "802.11p", "fading": {"model": "nakagami", "m": 2.5}})",
        R"({"mac": {"model": "tdma", "slot": "4 ms", "guard": "1 us", "frame": ["gcs", "-", "uav0"]}})",
-       R"({"mac": {"model": "tdma"}})", R"({"mac": {"model": "dcf"}})",
+       R"({"disruption": {"fraction": 0.7, "interval": "2 s", "phase": "500 ms"}})",
+       R"({"disruption": {"phase": "random"}})", R"({"antenna": "dipole"})",
+       R"({"antenna": {"gains": [[-3, 1.5, 2], [4, 5, 6]]}})", R"({"mac": {"model": "tdma"}})",
+       R"({"mac": {"model": "dcf"}})",
        R"({"standard": "802.11b", "fading": {"model": "rayleigh"}})", R"({"standard": "802.11a"})",
        R"({"propagation": {"model": "two-ray", "ground": "wet", "roughness": "5 cm"}})",
        R"({"propagation": {"model": "p1411", "bound": "upper"}})",
@@ -121,6 +126,28 @@ TEST_CASE("The scenario written out in full is the same scenario") {
   }
   CHECK(scenarios.front().fleet.at(0).neighbours.timeout == 3s);  // three beacon periods
   CHECK(scenarios.front().fleet.at(1).command.front() == "/scenarios/x/run");
+}
+
+TEST_CASE("An antenna's gains can be in a file beside the scenario") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("cuscus-antenna-" + std::to_string(::getpid()));
+  std::filesystem::create_directory(folder);
+  const auto antenna_of = [&](const std::string& rows) {
+    std::ofstream{folder / "a.csv"} << rows;
+    return parse_scenario(
+               R"({"name": "t", "fleet": [{}], "radio": {"antenna": {"file": "a.csv"}}})",
+               "flight.json", folder, {})
+        .radio.antenna;
+  };
+
+  const Antenna antenna = antenna_of("# -90, 0 and 90 degrees\n-3, 1.5\n\n0,+2\r\n4 ,5");
+  const std::vector<std::vector<double>> expected{{-3.0, 1.5}, {0.0, 2.0}, {4.0, 5.0}};
+  CHECK(std::get<PatternAntenna>(antenna).gains_dBi == expected);
+  for (const char* const bad : {"1,2\n1", "1,x\n1,2", "1,2\n1,nan", "", "1,2\n1,50", "1,2\n1,"}) {
+    CAPTURE(bad);
+    CHECK_THROWS_AS(antenna_of(bad), ScenarioError);
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("Every shipped scenario loads, and uses the schema beside it") {

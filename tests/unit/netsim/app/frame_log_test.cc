@@ -62,6 +62,8 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   parameters.tdma = {
       .slot = Duration{3'000'000}, .guard = Duration{7'000}, .frame = {2, kNobody, 0}};
   parameters.channel.fading = "rice";
+  parameters.antenna = {.model = "pattern", .pattern_dbi = {1.25, -2.0}, .pattern_azimuths = 1};
+  parameters.disruption = {.fraction = 0.4, .phase = DisruptionPhase::kRandom, .seed = 77};
   parameters.channel.k_factor = {3.5};
   parameters.channel.polarisation = Polarisation::kHorizontal;
   parameters.rts_threshold_bytes = 500;
@@ -97,6 +99,12 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.air.tdma.guard == parameters.tdma.guard);
   CHECK(log.air.tdma.frame == parameters.tdma.frame);
   CHECK(log.air.channel.fading == "rice");
+  CHECK(log.air.antenna.model == "pattern");
+  CHECK(log.air.antenna.pattern_dbi == std::vector<double>{1.25, -2.0});
+  CHECK(log.air.antenna.pattern_azimuths == 1);
+  CHECK(log.air.disruption.fraction == 0.4);
+  CHECK(log.air.disruption.phase == DisruptionPhase::kRandom);
+  CHECK(log.air.disruption.seed == 77);
   CHECK(log.air.channel.k_factor == parameters.channel.k_factor);
   CHECK(log.air.channel.k_factor_overhead == parameters.channel.k_factor_overhead);
   CHECK(log.air.channel.polarisation == Polarisation::kHorizontal);

@@ -65,6 +65,14 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   p.set_k_factor_overhead_db(14.5);
   p.set_residual_doppler_hz(0.75);
   p.set_nakagami_m(1.25);
+  c.set_antenna("pattern");
+  c.add_antenna_pattern_dbi(1.5);
+  c.add_antenna_pattern_dbi(-2.5);
+  c.set_antenna_pattern_azimuths(1);
+  c.set_disruption_fraction(0.7);
+  c.set_disruption_interval_ns(2'000'000);
+  c.set_disruption_offset_ns(300);
+  c.set_disruption_at_random(true);
 
   const AirParameters air = air_parameters(c);
 
@@ -116,6 +124,14 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   CHECK(air.channel.residual_doppler_hz == 0.75);
   CHECK(air.channel.nakagami_m == 1.25);
   CHECK(air.channel.seed == 5);
+  CHECK(air.antenna.model == "pattern");
+  CHECK(air.antenna.pattern_dbi == std::vector<double>{1.5, -2.5});
+  CHECK(air.antenna.pattern_azimuths == 1);
+  CHECK(air.disruption.fraction == 0.7);
+  CHECK(air.disruption.interval == Duration{2'000'000});
+  CHECK(air.disruption.offset == Duration{300});
+  CHECK(air.disruption.phase == DisruptionPhase::kRandom);
+  CHECK(air.disruption.seed == 5);
   REQUIRE(air.nodes.size() == 1);
   CHECK(air.nodes[0].tx_power.value == 17.0);
   CHECK(air.nodes[0].antenna_gain.value == 2.0);
