@@ -25,6 +25,7 @@ ALLOWED |= {
     "world/actuation": PURE | {"proto"},
     "netsim/channel": PURE,
     "netsim/phy": PURE | {"netsim/channel"},
+    "netsim/link": PURE | {"netsim/phy"},
     "netsim/mac": PURE | {"netsim/phy", "netsim/kernel"},
     "netsim/kernel": PURE,
     "netsim/air": PURE | {"netsim/kernel", "netsim/channel", "netsim/phy", "netsim/mac"},

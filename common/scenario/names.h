@@ -46,7 +46,8 @@ inline constexpr std::array kAerialAreaNames{Named<AerialArea>{"RMa-AV", AerialA
                                              Named<AerialArea>{"UMa-AV", AerialArea::kUrbanMacro},
                                              Named<AerialArea>{"UMi-AV", AerialArea::kUrbanMicro}};
 inline constexpr std::array kErrorModelNames{Named<ErrorModel>{"nist", ErrorModel::kNist},
-                                             Named<ErrorModel>{"yans", ErrorModel::kYans}};
+                                             Named<ErrorModel>{"yans", ErrorModel::kYans},
+                                             Named<ErrorModel>{"table", ErrorModel::kTable}};
 inline constexpr std::array kAttachNames{Named<Attach>{"bridge", Attach::kBridge},
                                          Named<Attach>{"direct", Attach::kDirect}};
 inline constexpr std::array kAddressResolutionNames{

@@ -115,7 +115,7 @@ enum class RadioStandard { k80211a, k80211b, k80211g, k80211p };
 enum class ControlAnswer { kSameClass, kAnyClass };
 enum class RateControl { kConstant, kIdeal, kAarf, kMinstrel };
 enum class DsssPreamble { kLong, kShort };
-enum class ErrorModel { kNist, kYans };
+enum class ErrorModel { kNist, kYans, kTable };
 
 struct PreambleDetection {
   DecibelMilliwatt minimum_power{-82.0};

@@ -105,7 +105,7 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--rts-threshold", o.run.air.rts_threshold_bytes,
                  "PSDUs above this many bytes are sent after RTS and CTS");
   app.add_option("--error-model", o.run.air.error_model, "Bit errors as a function of SINR")
-      ->check(CLI::IsMember({"nist", "yans"}))
+      ->check(CLI::IsMember({"nist", "yans", "table"}))
       ->capture_default_str();
   app.add_option("--slot", o.slot_us, "[us]; 0: the standard's")
       ->check(CLI::NonNegativeNumber)

@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "netsim/phy/link_error_model.h"
+
 namespace cuscus::netsim {
 namespace {
 
@@ -151,8 +153,11 @@ std::unique_ptr<const ErrorModel> make_error_model(std::string_view name) {
   if (name == "yans") {
     return std::make_unique<YansErrorModel>();
   }
+  if (name == "table") {
+    return std::make_unique<LinkErrorModel>();
+  }
   throw std::invalid_argument{"error model '" + std::string{name} +
-                              "' is not known; allowed are 'nist', 'yans'"};
+                              "' is not known; allowed are 'nist', 'yans', 'table'"};
 }
 
 double log_success(double bit_failure, double bits) {
