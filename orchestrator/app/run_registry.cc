@@ -169,6 +169,9 @@ RegistryEntry RunRegistry::enter(const RegisteredRun& run) const {
 std::vector<RegisteredRun> RunRegistry::runs() const {
   std::vector<RegisteredRun> alive;
   const UniqueFd registry = lock_registry(folder_, LOCK_SH);
+  if (!registry) {
+    return alive;  // a folder made just now would be looked at without its lock
+  }
   for (const auto& entry : entries_of(folder_)) {
     if (!is_alive(entry)) {
       continue;
@@ -183,6 +186,9 @@ std::vector<RegisteredRun> RunRegistry::runs() const {
 std::vector<std::string> RunRegistry::sweep() const {
   std::vector<std::string> removed;
   const UniqueFd registry = lock_registry(folder_, LOCK_EX);
+  if (!registry) {
+    return removed;  // the same
+  }
   for (const auto& entry : entries_of(folder_)) {
     if (!is_alive(entry)) {
       std::error_code error;  // what cannot be removed now is left for the next sweep

@@ -54,7 +54,7 @@ struct LinkReading {
 /// What the air did: written by netsim, read by the page and the orchestrator.
 struct RadioMemoryLayout {
   static constexpr std::uint64_t kMagic = magic_of("CUSRADIO");
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
 
   struct alignas(kCacheLine) Progress {
     std::atomic<std::uint64_t> heartbeat;
