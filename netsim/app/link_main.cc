@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
 
 #include "netsim/link/link_curve.h"
 
@@ -40,6 +43,10 @@ const char* name_of(CodeRate code_rate) {
 
 void print_row(const Mode& mode, const LinkSampling& sampling) {
   const auto curve = link_curve(mode.modulation, mode.code_rate, sampling);
+  if (curve.empty()) {
+    throw std::runtime_error{"too few frames for a single point of " +
+                             std::to_string(mode.rate_kbps) + " kb/s"};
+  }
   fmt::print("Curve{{Modulation::{}, CodeRate::{}, {},\n {{", name_of(mode.modulation),
              name_of(mode.code_rate), curve.front().snr_db);
   for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -51,12 +58,11 @@ void print_row(const Mode& mode, const LinkSampling& sampling) {
   std::fflush(stdout);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   LinkSampling sampling;
   double rate_mbps = 0.0;
-  CLI::App app{"Error rates of OFDM in white noise, by simulating the link bit by bit"};
+  CLI::App app{"Error rates of OFDM in white noise, by simulating the link bit by bit",
+               "cuscus-link"};
   app.add_option("--rate", rate_mbps, "This rate of 802.11a alone [Mb/s]; 0: all");
   app.add_option("--failures", sampling.failures, "Lost frames after which a point is good enough")
       ->check(CLI::Range(1, 1'000'000))
@@ -66,15 +72,24 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seed", sampling.seed, "Of bits and noise")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
-  try {
-    for (const Mode& mode : standard_of("802.11a").modes) {
-      if (rate_mbps == 0.0 || mode.rate_kbps == std::lround(rate_mbps * 1e3)) {
-        print_row(mode, sampling);
-      }
-    }
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "cuscus-link: {}\n", error.what());
-    return 1;
+  const Standard& standard = standard_of("802.11a");
+  if (rate_mbps != 0.0) {
+    print_row(standard.mode(static_cast<std::uint32_t>(std::lround(rate_mbps * 1e3))), sampling);
+    return 0;
+  }
+  for (const Mode& mode : standard.modes) {
+    print_row(mode, sampling);
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "cuscus-link: " << error.what() << '\n';
+    return 2;
+  }
 }

@@ -58,6 +58,7 @@ AlHourani::AlHourani(std::string_view environment)
 
 std::vector<std::string> AlHourani::environment_names() {
   std::vector<std::string> names;
+  names.reserve(Environment::kAll.size());
   for (const Environment& environment : Environment::kAll) {
     names.emplace_back(environment.name);
   }

@@ -36,7 +36,8 @@ std::vector<LinkPoint> link_curve(Modulation modulation, CodeRate code_rate,
   glance.frames = kGlance;
   glance.failures = kGlance;
   std::vector<LinkPoint> curve;
-  for (double snr_db = kLowest_db; snr_db < kHighest_db; snr_db += sampling.step_db) {
+  for (int step = 0; kLowest_db + step * sampling.step_db < kHighest_db; ++step) {
+    const double snr_db = kLowest_db + step * sampling.step_db;
     if (nearly_all_lost(sample_link(link, snr_db, kShortFrameBits, glance))) {
       continue;
     }
