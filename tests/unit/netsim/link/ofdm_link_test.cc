@@ -42,18 +42,5 @@ TEST_CASE("a point of a curve is the share of frames lost, spread over their bit
   CHECK(std::pow(1.0 - point.bit_failure(), 1000.0) == Approx(0.75));
 }
 
-TEST_CASE("a curve falls from nearly all lost to nearly none") {
-  const LinkSampling quick{.step_db = 1.0, .failures = 30, .frames = 400, .least_failures = 5};
-
-  const auto curve = link_curve(Modulation::k64Qam, CodeRate::kThreeQuarters, quick);
-
-  REQUIRE(curve.size() >= 3);
-  CHECK(curve.front().frame_bits == kShortFrameBits);
-  CHECK(curve.back().frame_bits == kLongFrameBits);
-  for (std::size_t i = 1; i < curve.size(); ++i) {
-    CHECK(curve[i].bit_failure() < curve[i - 1].bit_failure());
-  }
-}
-
 }  // namespace
 }  // namespace cuscus::netsim
