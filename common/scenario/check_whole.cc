@@ -227,6 +227,10 @@ void check_tdma(const Scenario& scenario, Problems& problems) {
                      "\" learns from ACKs, and tdma has none; allowed: "
                      "constant");
   }
+  if (scenario.radio.rts_threshold_bytes) {
+    problems.add("/radio/rts_threshold", std::to_string(*scenario.radio.rts_threshold_bytes) +
+                                             " announces frames, and tdma does not; allowed: none");
+  }
   check_slot(scenario, *tdma, scenario.radio.data_rate_kbps, "data_rate", problems);
   if (scenario.radio.group_rate_kbps != scenario.radio.data_rate_kbps) {
     check_slot(scenario, *tdma, scenario.radio.group_rate_kbps, "group_rate", problems);

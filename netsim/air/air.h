@@ -219,7 +219,6 @@ class Air final : private MacHost {
   void finished(std::uint32_t node, const Msdu& msdu, SendOutcome outcome,
                 std::uint32_t attempts) override;
 
-  [[nodiscard]] Decibel antenna_gains(std::uint32_t a, std::uint32_t b);
   void update_reach(std::uint32_t sender);
   void spread(Transmission& transmission, std::uint32_t sender);
   [[nodiscard]] static std::uint64_t rank_of_phase(Phase phase, std::uint32_t index);

@@ -32,16 +32,6 @@ std::uint32_t Air::new_transmission() {
   return static_cast<std::uint32_t>(transmissions_.size() - 1);
 }
 
-Decibel Air::antenna_gains(std::uint32_t a, std::uint32_t b) {
-  const auto& positions = positions_->positions(now_);
-  const auto attitudes = positions_->attitudes();
-  const auto pose = [&](std::uint32_t node) {
-    return attitudes.empty() ? AntennaPose{.p_WB = positions[node]}
-                             : AntennaPose{.p_WB = positions[node], .q_WB = attitudes[node]};
-  };
-  return gain_of_both(*antenna_, pose(a), pose(b));
-}
-
 void Air::update_reach(std::uint32_t sender) {
   const auto& positions = positions_->positions(now_);
   Station& station = stations_[sender];
@@ -58,13 +48,18 @@ void Air::update_reach(std::uint32_t sender) {
   }
   station.reach_version = positions_->version();
   const AirNode& radio = radios_[sender];
+  const auto attitudes = positions_->attitudes();
+  const auto pose = [&](std::uint32_t node) {
+    return attitudes.empty() ? AntennaPose{.p_WB = positions[node]}
+                             : AntennaPose{.p_WB = positions[node], .q_WB = attitudes[node]};
+  };
   for (Reach& reach : station.reach) {
     const Decibel loss = channel_.static_loss(
         Link::between(sender, positions[sender], reach.receiver, positions[reach.receiver]));
     DecibelMilliwatt received =
         radio.tx_power + radio.antenna_gain + radios_[reach.receiver].antenna_gain - loss;
     if (antenna_) {
-      received = received + antenna_gains(sender, reach.receiver);
+      received = received + gain_of_both(*antenna_, pose(sender), pose(reach.receiver));
     }
     const double distance_m = (positions[sender] - positions[reach.receiver]).norm();
     reach.delay = Duration{std::llround(distance_m / kSpeedOfLight_mps * 1e9)};

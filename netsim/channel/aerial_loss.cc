@@ -9,6 +9,9 @@
 namespace cuscus::netsim {
 namespace {
 
+/// Purpose number of the stream of the field (see random::stream_id).
+constexpr std::uint16_t kVisibilityStream = 0x1010;
+
 constexpr std::array<std::string_view, 3> kAreas{"RMa-AV", "UMa-AV", "UMi-AV"};
 
 double horizontal_m(const LinkGeometry& link) { return (link.p_WR - link.p_WT).head<2>().norm(); }
@@ -154,18 +157,16 @@ Decibel Tr36777::loss(const LinkGeometry& link, bool line_of_sight) const {
 AerialLoss::AerialLoss(std::unique_ptr<const AerialModel> model, const std::optional<Draw>& draw)
     : model_{std::move(model)} {
   if (draw) {
-    visibility_.emplace(Shadowing::Parameters{.deviation_db = 1.0,
-                                              .decorrelation_m = draw->decorrelation_m,
-                                              .seed = draw->seed,
-                                              .purpose = Shadowing::Purpose::kVisibility});
+    visibility_.emplace(GaussianField::Parameters{.purpose = kVisibilityStream,
+                                                  .decorrelation_m = draw->decorrelation_m,
+                                                  .seed = draw->seed});
   }
 }
 
 Decibel AerialLoss::loss(const LinkGeometry& link) const {
   const double probability = model_->line_of_sight_probability(link);
   if (visibility_) {
-    const double normal =
-        visibility_->loss({.low = 0, .high = 1, .p_WL = link.p_WT, .p_WH = link.p_WR}).value;
+    const double normal = visibility_->value(link.p_WT, link.p_WR);
     const double uniform = 0.5 * std::erfc(-normal / std::numbers::sqrt2);
     return model_->loss(link, uniform < probability);
   }

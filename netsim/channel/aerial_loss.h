@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "netsim/channel/gaussian_field.h"
 #include "netsim/channel/path_loss.h"
-#include "netsim/channel/shadowing.h"
 
 namespace cuscus::netsim {
 
@@ -81,9 +81,8 @@ class Tr36777 final : public AerialModel {
 ///
 ///   L = P_LoS L_LoS + (1 - P_LoS) L_NLoS  dB,
 ///
-/// or line of sight where Φ(G(r_L, r_H)) < P_LoS, with G a Gaussian field of mean 0 and variance 1
-/// like that of Shadowing, of its own decorrelation distance, and Φ the normal distribution: seen
-/// or not as a whole, for as long as the ends stay near where they are.
+/// or line of sight where Φ(G(r_L, r_H)) < P_LoS, with G a GaussianField and Φ the normal
+/// distribution: seen or not as a whole, for as long as the ends stay near where they are.
 class AerialLoss final : public PathLossModel {
  public:
   struct Draw {
@@ -98,7 +97,7 @@ class AerialLoss final : public PathLossModel {
 
  private:
   std::unique_ptr<const AerialModel> model_;
-  std::optional<Shadowing> visibility_;
+  std::optional<GaussianField> visibility_;
 };
 
 }  // namespace cuscus::netsim

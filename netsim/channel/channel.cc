@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "common/random/counter_stream.h"
+#include "netsim/channel/aerial_loss.h"
+#include "netsim/channel/street_canyon.h"
 
 namespace cuscus::netsim {
 namespace {

@@ -7,12 +7,10 @@
 #include <vector>
 
 #include "common/units/decibel.h"
-#include "netsim/channel/aerial_loss.h"
 #include "netsim/channel/fading.h"
 #include "netsim/channel/link.h"
 #include "netsim/channel/path_loss.h"
 #include "netsim/channel/shadowing.h"
-#include "netsim/channel/street_canyon.h"
 #include "netsim/channel/two_ray.h"
 
 namespace cuscus::netsim {

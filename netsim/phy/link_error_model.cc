@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 
 #include "common/units/decibel.h"
 
@@ -18,24 +17,34 @@ struct Curve {
   CodeRate code_rate;
   double first_db;
   std::array<double, kMostPoints> points;  ///< lg p; 0 after the last.
-
-  [[nodiscard]] constexpr std::size_t size() const {
-    std::size_t n = 0;
-    while (n < points.size() && points[n] < 0.0) {
-      ++n;
-    }
-    return n;
-  }
 };
 
 constexpr std::array kCurves{
 #include "netsim/phy/link_error_table.inc"
 };
 
-const Curve& curve_of(Modulation modulation, CodeRate code_rate) {
-  return *std::find_if(kCurves.begin(), kCurves.end(), [&](const Curve& curve) {
+/// Where the last pair of points of a curve begins.
+constexpr std::size_t last_pair(const Curve& curve) {
+  std::size_t points = 0;
+  while (points < curve.points.size() && curve.points[points] < 0.0) {
+    ++points;
+  }
+  return points - 2;
+}
+
+constexpr auto kLastPairs = [] {
+  std::array<double, kCurves.size()> pairs{};
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i] = static_cast<double>(last_pair(kCurves[i]));
+  }
+  return pairs;
+}();
+
+std::size_t index_of(Modulation modulation, CodeRate code_rate) {
+  const auto* const found = std::find_if(kCurves.begin(), kCurves.end(), [&](const Curve& curve) {
     return curve.modulation == modulation && curve.code_rate == code_rate;
   });
+  return static_cast<std::size_t>(found - kCurves.begin());
 }
 
 }  // namespace
@@ -48,10 +57,10 @@ double LinkErrorModel::bit_failure(Modulation modulation, CodeRate code_rate,
   if (sinr_ratio <= 0.0) {
     return 1.0;
   }
-  const Curve& curve = curve_of(modulation, code_rate);
+  const std::size_t index = index_of(modulation, code_rate);
+  const Curve& curve = kCurves[index];
   const double position = (10.0 * std::log10(sinr_ratio) - curve.first_db) / kStep_db;
-  const auto last = static_cast<double>(curve.size() - 2);
-  const double below = std::clamp(std::floor(position), 0.0, last);
+  const double below = std::clamp(std::floor(position), 0.0, kLastPairs[index]);
   const double* const pair = curve.points.data() + static_cast<std::size_t>(below);
   return std::min(1.0, std::pow(10.0, pair[0] + (position - below) * (pair[1] - pair[0])));
 }

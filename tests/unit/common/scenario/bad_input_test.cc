@@ -76,6 +76,7 @@ const std::vector<BadInput> kTable{
     {R"({"radio": {"disruption": {"phase": "2 s"}}})", "/radio/disruption/phase", "is beyond the interval; allowed: random, or a time of at most the interval", false},
     {R"({"radio": {"tx_power": "100 mW"}})", "/radio/tx_power", "has the unit \"mW\"; allowed: a power level in dBm", true},
     {R"({"radio": {"tx_power": "90 dBm"}})", "/radio/tx_power", "out of range; allowed: -50 dBm ... 50 dBm", false},
+    {R"({"radio": {"rts_threshold": 500, "mac": {"model": "tdma"}}})", "/radio/rts_threshold", "500 announces frames, and tdma does not; allowed: none", false},
     {R"({"radio": {"mac": "tdma"}})", "/radio/mac", "\"tdma\" is a text; allowed: an object", true},
     {R"({"radio": {"mac": {}}})", "/radio/mac/model", "is missing; allowed: dcf, tdma", true},
     {R"({"radio": {"mac": {"model": "tmda"}}})", "/radio/mac/model", "did you mean \"tdma\"? allowed: dcf, tdma", true},

@@ -1,4 +1,4 @@
-#include "netsim/channel/shadowing.h"
+#include "netsim/channel/gaussian_field.h"
 
 #include <cmath>
 #include <numbers>
@@ -6,19 +6,9 @@
 #include "common/random/counter_stream.h"
 
 namespace cuscus::netsim {
-namespace {
 
-// Purpose numbers of the streams (see random::stream_id).
-constexpr std::uint16_t kFieldStream = 0x1007;
-constexpr std::uint16_t kVisibilityStream = 0x1010;
-
-}  // namespace
-
-Shadowing::Shadowing(const Parameters& parameters)
-    : amplitude_db_{parameters.deviation_db * std::sqrt(2.0 / kWaves)} {
-  const std::uint16_t purpose =
-      parameters.purpose == Purpose::kVisibility ? kVisibilityStream : kFieldStream;
-  const random::CounterStream draws{parameters.seed, random::stream_id(purpose, 0)};
+GaussianField::GaussianField(const Parameters& parameters) {
+  const random::CounterStream draws{parameters.seed, random::stream_id(parameters.purpose, 0)};
   std::uint64_t draw = 0;
   // A normal vector over the modulus of a normal variable is Cauchy distributed.
   const auto spatial_frequency = [&] {
@@ -35,12 +25,12 @@ Shadowing::Shadowing(const Parameters& parameters)
   }
 }
 
-Decibel Shadowing::loss(const Link& link) const {
+double GaussianField::value(const Eigen::Vector3d& p_WL, const Eigen::Vector3d& p_WH) const {
   double sum = 0.0;
   for (const Wave& wave : waves_) {
-    sum += std::cos(wave.at_low.dot(link.p_WL) + wave.at_high.dot(link.p_WH) + wave.phase_rad);
+    sum += std::cos(wave.at_low.dot(p_WL) + wave.at_high.dot(p_WH) + wave.phase_rad);
   }
-  return {amplitude_db_ * sum};
+  return std::sqrt(2.0 / kWaves) * sum;
 }
 
 }  // namespace cuscus::netsim
