@@ -110,9 +110,11 @@ void write(JsonWriter& json, const shm::RadioTally& tally) {
   json.end_object();
   json.key("lost");
   json.begin_object();
+  field(json, "below_floor", tally.lost_below_floor);
   field(json, "below_detection", tally.lost_below_detection);
   field(json, "noise", tally.lost_noise);
   field(json, "collision", tally.lost_collision);
+  field(json, "interference", tally.lost_interference);
   field(json, "half_duplex", tally.lost_half_duplex);
   field(json, "jammed", tally.lost_jammed);
   field(json, "interface", tally.lost_interface);

@@ -91,7 +91,8 @@ Air::Station::Station(const ReceiverModel& model, std::uint32_t node, std::uint6
     : receiver{model, random::CounterStream{seed, random::stream_id(kReceptionStream, node)}},
       rates{std::move(rate_control)} {}
 
-Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener)
+Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener,
+         AirMonitor* monitor)
     : seed_{parameters.seed},
       standard_{&standard_of(parameters.standard, parameters.dsss_preamble)},
       mac_{mac_parameters(parameters, *standard_)},
@@ -104,7 +105,8 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
       shortest_airtime_{shortest_airtime(*standard_)},
       radios_{parameters.nodes},
       positions_{&positions},
-      listener_{&listener} {
+      listener_{&listener},
+      monitor_{monitor} {
   if (parameters.disruption.fraction != 0.0) {
     disruption_.emplace(parameters.disruption);
   }
@@ -168,7 +170,7 @@ std::optional<SimTime> Air::next_delivery_bound() const {
     bound = queue_.next_time() + shortest_airtime_;
   }
   for (const Transmission& transmission : transmissions_) {
-    if (transmission.active && transmission.frame.kind == MacFrame::Kind::kData &&
+    if (transmission.active && transmission.ppdu.frame.kind == MacFrame::Kind::kData &&
         !transmission.arrivals.empty()) {
       const auto next =
           std::min<std::size_t>(transmission.next[static_cast<std::size_t>(Phase::kFinish)],

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "netsim/air/air_monitor.h"
 #include "netsim/air/tally.h"
 #include "netsim/channel/antenna.h"
 #include "netsim/channel/channel.h"
@@ -141,9 +142,10 @@ class AirListener {
 /// entry in the event queue where it is not.
 class Air final : private MacHost {
  public:
-  /// `positions` and `listener` must outlive this object.
+  /// `positions`, `listener` and `monitor`, if any, must outlive this object.
   /// @throws std::invalid_argument naming what is wrong and what is allowed.
-  Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener);
+  Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener,
+      AirMonitor* monitor = nullptr);
 
   /// A program on `node` sent a frame at `sent_at`; when that is before now(), it counts as now().
   void offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame);
@@ -191,7 +193,7 @@ class Air final : private MacHost {
   enum class Phase : std::uint8_t { kBegin, kDetect, kHeader, kEnergyEnds, kFinish };
   static constexpr std::size_t kPhases = 5;
   struct Transmission {
-    MacFrame frame;
+    Ppdu ppdu;
     PpduTiming timing;
     std::array<SimTime, kPhases> phase_at{};  ///< At the antenna of the sender.
     std::array<std::uint32_t, kPhases> next{};
@@ -223,6 +225,7 @@ class Air final : private MacHost {
   void spread(Transmission& transmission, std::uint32_t sender);
   [[nodiscard]] static std::uint64_t rank_of_phase(Phase phase, std::uint32_t index);
   void sweep(std::uint32_t index, Phase phase, SimTime limit);
+  void report_reception(const Transmission& transmission, const Arrival& arrival);
   void sweep_one(Transmission& transmission, Phase phase, Arrival& arrival);
   [[nodiscard]] bool disrupted(const Transmission& transmission, const Arrival& arrival) const;
   void finish_arrival(Transmission& transmission, Arrival& arrival);
@@ -246,6 +249,7 @@ class Air final : private MacHost {
   std::vector<AirNode> radios_;
   PositionSource* positions_;
   AirListener* listener_;
+  AirMonitor* monitor_;  ///< Nothing: nobody asks.
 
   EventQueue<Step> queue_;
   SimTime now_{};

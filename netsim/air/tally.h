@@ -23,15 +23,20 @@ struct Tally {
   std::uint64_t dropped_lifetime{};
   std::uint64_t dropped_retry_limit{};
   std::uint64_t dropped_too_long{};  ///< Fits into no slot: TDMA only.
+  std::uint64_t lost_below_floor{};
   std::uint64_t lost_below_detection{};
   std::uint64_t lost_noise{};
   std::uint64_t lost_collision{};
+  std::uint64_t lost_interference{};
   std::uint64_t lost_half_duplex{};
   std::uint64_t lost_jammed{};
 
   void count(LossCause cause) {
     switch (cause) {
       case LossCause::kNone:
+        break;
+      case LossCause::kBelowFloor:
+        ++lost_below_floor;
         break;
       case LossCause::kBelowDetection:
         ++lost_below_detection;
@@ -41,6 +46,9 @@ struct Tally {
         break;
       case LossCause::kCollision:
         ++lost_collision;
+        break;
+      case LossCause::kInterference:
+        ++lost_interference;
         break;
       case LossCause::kHalfDuplex:
         ++lost_half_duplex;

@@ -81,8 +81,7 @@ void Air::update_reach(std::uint32_t sender) {
 void Air::spread(Transmission& transmission, std::uint32_t sender) {
   update_reach(sender);
   Station& station = stations_[sender];
-  const std::uint64_t number = station.transmissions++;
-  const bool data = transmission.frame.kind == MacFrame::Kind::kData;
+  const bool data = transmission.ppdu.frame.kind == MacFrame::Kind::kData;
   const auto* const positions =
       channel_.varies_per_frame() ? &positions_->positions(now_) : nullptr;
   transmission.arrivals.clear();
@@ -93,18 +92,20 @@ void Air::spread(Transmission& transmission, std::uint32_t sender) {
           channel_.frame_loss({.link = Link::between(sender, (*positions)[sender], reach.receiver,
                                                      (*positions)[reach.receiver]),
                                .from_low = sender < reach.receiver,
-                               .transmission = number,
+                               .transmission = transmission.ppdu.number,
                                .time = now_});
       power_mw = (DecibelMilliwatt{reach.received_dbm} - variation).milliwatts();
     }
     if (power_mw >= floor_mw_) {
-      transmission.arrivals.push_back(
-          {.receiver = reach.receiver, .delay = reach.delay, .power_mw = power_mw});
-    } else if (data && transmission.frame.receiver == kGroup) {
-      stations_[reach.receiver].tally.count(LossCause::kBelowDetection);
-    } else if (belongs_to_pending(transmission.frame) &&
-               meant_for(transmission.frame, reach.receiver)) {
-      pending_[transmission.frame.frame].destination_cause = LossCause::kBelowDetection;
+      transmission.arrivals.push_back({.sender = sender,
+                                       .receiver = reach.receiver,
+                                       .delay = reach.delay,
+                                       .power_mw = power_mw});
+    } else if (data && transmission.ppdu.frame.receiver == kGroup) {
+      stations_[reach.receiver].tally.count(LossCause::kBelowFloor);
+    } else if (belongs_to_pending(transmission.ppdu.frame) &&
+               meant_for(transmission.ppdu.frame, reach.receiver)) {
+      pending_[transmission.ppdu.frame.frame].destination_cause = LossCause::kBelowFloor;
     }
   }
 }
@@ -118,7 +119,6 @@ void Air::transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
   const SimTime header = now_ + format.preamble;
   const SimTime payload = header + format.header;
   const SimTime end = now_ + duration;
-  transmission.frame = frame;
   transmission.timing = {.header_begins = header,
                          .payload_begins = payload,
                          .energy_ends = end - format.extension,
@@ -128,6 +128,12 @@ void Air::transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
   transmission.active = true;
 
   Station& station = stations_[node];
+  transmission.ppdu = {.frame = frame,
+                       .mode = &mode,
+                       .psdu_bytes = psdu_bytes,
+                       .number = station.transmissions++,
+                       .begins = now_,
+                       .ends = end};
   station.receiver.start_transmission();
   update_medium(node);
   if (belongs_to_pending(frame)) {
@@ -138,6 +144,14 @@ void Air::transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
     Pending& pending = pending_[frame.frame];
     station.tally.retries += pending.report.attempts > 0 ? 1 : 0;
     ++pending.report.attempts;
+  }
+  if (belongs_to_pending(frame)) {
+    const FrameReport& report = pending_[frame.frame].report;
+    transmission.ppdu.attempt = report.attempts;
+    transmission.ppdu.offer_id = report.id;
+  }
+  if (monitor_ != nullptr) {
+    monitor_->transmitted(transmission.ppdu);
   }
   spread(transmission, node);
   queue_.schedule(end, event_rank(EventRank::kFinish, node),
@@ -244,8 +258,18 @@ bool Air::disrupted(const Transmission& transmission, const Arrival& arrival) co
              transmission.phase_at[static_cast<std::size_t>(Phase::kEnergyEnds)] + arrival.delay);
 }
 
+void Air::report_reception(const Transmission& transmission, const Arrival& arrival) {
+  monitor_->received(transmission.ppdu,
+                     {.receiver = arrival.receiver,
+                      .time = now_,
+                      .cause = arrival.cause,
+                      .power = DecibelMilliwatt::from_milliwatts(arrival.power_mw),
+                      .sinr = Decibel::from_ratio(arrival.sinr_ratio),
+                      .interferer = arrival.interferer});
+}
+
 void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
-  const MacFrame frame = transmission.frame;
+  const MacFrame frame = transmission.ppdu.frame;
   const std::uint32_t receiver = arrival.receiver;
   const double power_mw = arrival.power_mw;
   Station& station = stations_[receiver];
@@ -253,6 +277,9 @@ void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
   if (end == Receiver::End::kDecoded && disrupted(transmission, arrival)) {
     end = Receiver::End::kFailed;
     arrival.cause = LossCause::kJammed;
+  }
+  if (monitor_ != nullptr) {
+    report_reception(transmission, arrival);
   }
   const bool data = frame.kind == MacFrame::Kind::kData;
   if (end != Receiver::End::kDecoded) {
@@ -288,8 +315,8 @@ void Air::end_of_sweeps(std::uint32_t index) {
   Transmission& transmission = transmissions_[index];
   transmission.active = false;
   free_transmissions_.push_back(index);
-  if (belongs_to_pending(transmission.frame)) {
-    release(transmission.frame.frame);
+  if (belongs_to_pending(transmission.ppdu.frame)) {
+    release(transmission.ppdu.frame.frame);
   }
 }
 

@@ -167,33 +167,36 @@ void apply(Options& o) {
 void print(const Options& o, const SyntheticResult& r, double wall_s) {
   Tally sum;
   for (const Tally& t : r.tallies) {
+    sum.lost_below_floor += t.lost_below_floor;
     sum.lost_below_detection += t.lost_below_detection;
     sum.lost_noise += t.lost_noise;
     sum.lost_collision += t.lost_collision;
+    sum.lost_interference += t.lost_interference;
     sum.lost_half_duplex += t.lost_half_duplex;
     sum.dropped_queue_full += t.dropped_queue_full;
     sum.dropped_lifetime += t.dropped_lifetime;
     sum.dropped_retry_limit += t.dropped_retry_limit;
     sum.dropped_too_long += t.dropped_too_long;
   }
-  std::cout << "traffic,cast,layout,nodes,payload_B,rate_kbps,group_rate_kbps,seed,measure_s,"
-               "goodput_mbps,delivery_ratio,attempt_success,attempts_per_frame,drops_per_s,jain,"
-               "delay_mean_us,delay_p50_us,delay_p99_us,delay_max_us,round_trip_us,"
-               "lost_below_detection,lost_noise,lost_collision,lost_half_duplex,"
-               "dropped_queue_full,dropped_lifetime,dropped_retry_limit,dropped_too_long,"
-               "receptions,events,wall_s\n"
-            << fmt::format(
-                   "{},{},{},{},{},{},{},{},{:.3f},{:.4f},{:.5f},{:.4f},{:.4f},{:.2f},{:.4f},"
-                   "{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{},{},{},{},{},{},{},{},{},{},{:.3f}\n",
-                   o.traffic, o.unicast ? "ucast" : "bcast", o.layout, o.run.senders,
-                   o.run.traffic.udp_payload_bytes, o.run.air.data_rate_kbps,
-                   o.run.air.group_rate_kbps, o.run.air.seed, o.duration_s, r.goodput_mbps,
-                   r.delivery_ratio, r.attempt_success, r.attempts_per_frame, r.drops_per_s, r.jain,
-                   r.delay_mean_us, r.delay_p50_us, r.delay_p99_us, r.delay_max_us,
-                   r.round_trip_mean_us, sum.lost_below_detection, sum.lost_noise,
-                   sum.lost_collision, sum.lost_half_duplex, sum.dropped_queue_full,
-                   sum.dropped_lifetime, sum.dropped_retry_limit, sum.dropped_too_long,
-                   r.receptions, r.events, wall_s);
+  std::cout
+      << "traffic,cast,layout,nodes,payload_B,rate_kbps,group_rate_kbps,seed,measure_s,"
+         "goodput_mbps,delivery_ratio,attempt_success,attempts_per_frame,drops_per_s,jain,"
+         "delay_mean_us,delay_p50_us,delay_p99_us,delay_max_us,round_trip_us,"
+         "lost_below_floor,lost_below_detection,lost_noise,lost_collision,"
+         "lost_interference,lost_half_duplex,"
+         "dropped_queue_full,dropped_lifetime,dropped_retry_limit,dropped_too_long,"
+         "receptions,events,wall_s\n"
+      << fmt::format(
+             "{},{},{},{},{},{},{},{},{:.3f},{:.4f},{:.5f},{:.4f},{:.4f},{:.2f},{:.4f},"
+             "{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n",
+             o.traffic, o.unicast ? "ucast" : "bcast", o.layout, o.run.senders,
+             o.run.traffic.udp_payload_bytes, o.run.air.data_rate_kbps, o.run.air.group_rate_kbps,
+             o.run.air.seed, o.duration_s, r.goodput_mbps, r.delivery_ratio, r.attempt_success,
+             r.attempts_per_frame, r.drops_per_s, r.jain, r.delay_mean_us, r.delay_p50_us,
+             r.delay_p99_us, r.delay_max_us, r.round_trip_mean_us, sum.lost_below_floor,
+             sum.lost_below_detection, sum.lost_noise, sum.lost_collision, sum.lost_interference,
+             sum.lost_half_duplex, sum.dropped_queue_full, sum.dropped_lifetime,
+             sum.dropped_retry_limit, sum.dropped_too_long, r.receptions, r.events, wall_s);
 }
 
 int run(int argc, char** argv) {

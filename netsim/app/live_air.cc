@@ -324,9 +324,11 @@ shm::RadioTally LiveAir::tally(std::uint32_t node) const {
           .dropped_retry_limit = air.dropped_retry_limit,
           .dropped_malformed = port.malformed + air.dropped_too_long,
           .dropped_before_air = port.before_air,
+          .lost_below_floor = air.lost_below_floor,
           .lost_below_detection = air.lost_below_detection,
           .lost_noise = air.lost_noise,
           .lost_collision = air.lost_collision,
+          .lost_interference = air.lost_interference,
           .lost_half_duplex = air.lost_half_duplex,
           .lost_jammed = air.lost_jammed,
           .lost_interface = port.lost_interface};

@@ -64,10 +64,24 @@ double ReceiverModel::log_success_of(Modulation modulation, CodeRate code_rate, 
 void Receiver::begin(SimTime now, Arrival& arrival) {
   settle(now);
   total_mw_ += arrival.power_mw;
-  ++arrivals_;
+  present_.push_back(&arrival);
   if (transmitting_) {
     arrival.cause = LossCause::kHalfDuplex;
   }
+  if (locked_ != nullptr && arrival.power_mw > interferer_mw_) {
+    interferer_mw_ = arrival.power_mw;
+    locked_->interferer = arrival.sender;
+  }
+}
+
+const Arrival* Receiver::strongest_other(const Arrival& arrival) const {
+  const Arrival* strongest = nullptr;
+  for (const Arrival* other : present_) {
+    if (other != &arrival && (strongest == nullptr || other->power_mw > strongest->power_mw)) {
+      strongest = other;
+    }
+  }
+  return strongest;
 }
 
 bool Receiver::detect(SimTime now, Arrival& arrival, const PpduTiming& timing) {
@@ -75,6 +89,10 @@ bool Receiver::detect(SimTime now, Arrival& arrival, const PpduTiming& timing) {
     return false;
   }
   const double interference_mw = std::max(0.0, total_mw_ - arrival.power_mw);
+  arrival.sinr_ratio =
+      static_cast<float>(arrival.power_mw / (model_->noise_mw() + interference_mw));
+  const Arrival* const other = present_.size() > 1 ? strongest_other(arrival) : nullptr;
+  arrival.interferer = other != nullptr ? other->sender : kNoSender;
   if (transmitting_) {
     arrival.cause = LossCause::kHalfDuplex;
   } else if (!model_->detectable(arrival.power_mw, 0.0)) {
@@ -83,12 +101,15 @@ bool Receiver::detect(SimTime now, Arrival& arrival, const PpduTiming& timing) {
              (locked_ != nullptr &&
               !model_->captures(now < timing_.header_begins, arrival.power_mw, interference_mw))) {
     arrival.cause = LossCause::kCollision;
+    arrival.interferer = locked_ != nullptr ? locked_->sender : arrival.interferer;
   } else {
     if (locked_ != nullptr) {
       locked_->cause = LossCause::kCollision;
+      locked_->interferer = arrival.sender;
       locked_->decoded = false;
     }
     lock_on(now, arrival, timing);
+    interferer_mw_ = other != nullptr ? other->power_mw : 0.0;
     return true;
   }
   return false;
@@ -127,7 +148,8 @@ Receiver::Header Receiver::header(SimTime now, Arrival& arrival) {
 
 void Receiver::energy_ends(SimTime now, Arrival& arrival) {
   settle(now);
-  if (--arrivals_ == 0) {
+  present_.erase(std::find(present_.begin(), present_.end(), &arrival));
+  if (present_.empty()) {
     total_mw_ = 0.0;  // no rounding error outlives the frames that caused it
   } else {
     total_mw_ = std::max(0.0, total_mw_ - arrival.power_mw);
@@ -173,6 +195,7 @@ void Receiver::settle(SimTime now) {
 
 void Receiver::charge(SimTime from, SimTime to, double sinr_ratio) {
   const Mode& mode = *timing_.mode;
+  locked_->sinr_ratio = std::min(locked_->sinr_ratio, static_cast<float>(sinr_ratio));
   const Duration in_header =
       std::min(to, timing_.payload_begins) - std::max(from, timing_.header_begins);
   if (in_header > Duration::zero()) {
@@ -198,7 +221,7 @@ bool Receiver::decide(Arrival& arrival, double log_success, double log_success_i
   }
   // The same draw decides who is to blame: the frame that noise alone would have spoilt too is
   // charged to noise.
-  arrival.cause = u < std::exp(log_success_in_noise) ? LossCause::kCollision : LossCause::kNoise;
+  arrival.cause = u < std::exp(log_success_in_noise) ? LossCause::kInterference : LossCause::kNoise;
   return false;
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "common/random/counter_stream.h"
 #include "common/units/decibel.h"
@@ -14,9 +15,11 @@ namespace cuscus::netsim {
 /// Why a frame was not received.
 enum class LossCause : std::uint8_t {
   kNone,
-  kBelowDetection,  ///< Too weak to be detected.
+  kBelowFloor,      ///< So weak that the receiver was left out of it.
+  kBelowDetection,  ///< Too weak for its preamble to be detected.
   kNoise,           ///< Detected; decoding would have failed without interference too.
-  kCollision,       ///< Not detected, or not decoded, because of interference.
+  kCollision,       ///< The receiver was with another frame, or that one hid the preamble.
+  kInterference,    ///< Detected, and spoilt by other frames.
   kHalfDuplex,      ///< The node was transmitting.
   kJammed,          ///< Would have been received, had nobody jammed.
 };
@@ -72,11 +75,18 @@ class ReceiverModel {
   std::array<std::array<double, kCodeRates>, kModulations> certain_sinr_{};
 };
 
+inline constexpr std::uint32_t kNoSender = std::numeric_limits<std::uint32_t>::max();
+
 /// One transmission as one receiver gets it.
 struct Arrival {
+  std::uint32_t sender{};
   std::uint32_t receiver{};
   Duration delay{};  ///< Propagation.
   double power_mw{};
+  /// The worst of what was decided on: detection or its failure, and all chunks after it.
+  float sinr_ratio{};
+  /// Sender of the strongest other frame heard meanwhile, or of the one preferred to this one.
+  std::uint32_t interferer{kNoSender};
   LossCause cause{LossCause::kNone};
   bool decoded{false};
 };
@@ -128,6 +138,7 @@ class Receiver {
   }
 
  private:
+  [[nodiscard]] const Arrival* strongest_other(const Arrival& arrival) const;
   void lock_on(SimTime now, Arrival& arrival, const PpduTiming& timing);
   void settle(SimTime now);
   void charge(SimTime from, SimTime to, double sinr_ratio);
@@ -137,7 +148,7 @@ class Receiver {
   random::CounterStream draws_;
   std::uint64_t draw_{0};
   double total_mw_{0.0};
-  std::uint32_t arrivals_{0};
+  std::vector<const Arrival*> present_;  ///< Whose energy is on the antenna.
   bool transmitting_{false};
   // The frame being received.
   Arrival* locked_{nullptr};
@@ -146,6 +157,7 @@ class Receiver {
   SimTime chunk_begins_{};
   double log_header_{0.0};
   double log_payload_{0.0};
+  double interferer_mw_{0.0};  ///< Of locked_->interferer.
 };
 
 }  // namespace cuscus::netsim

@@ -69,9 +69,11 @@ Json json_of(const shm::RadioTally& tally) {
           {"dropped_retry_limit", tally.dropped_retry_limit},
           {"dropped_malformed", tally.dropped_malformed},
           {"dropped_before_air", tally.dropped_before_air},
+          {"lost_below_floor", tally.lost_below_floor},
           {"lost_below_detection", tally.lost_below_detection},
           {"lost_noise", tally.lost_noise},
           {"lost_collision", tally.lost_collision},
+          {"lost_interference", tally.lost_interference},
           {"lost_half_duplex", tally.lost_half_duplex},
           {"lost_jammed", tally.lost_jammed},
           {"lost_interface", tally.lost_interface}};

@@ -26,9 +26,11 @@ struct RadioTally {
   std::uint64_t dropped_malformed;   ///< Too short, too long, not Ethernet II.
   std::uint64_t dropped_before_air;  ///< Sent, but lost between the interface and the emulator.
   // Receptions that failed at this node, by cause.
-  std::uint64_t lost_below_detection;  ///< Too weak to be detected.
+  std::uint64_t lost_below_floor;      ///< So weak that the receiver was left out of it.
+  std::uint64_t lost_below_detection;  ///< Too weak for its preamble to be detected.
   std::uint64_t lost_noise;            ///< Detected, decoding failed without interference.
-  std::uint64_t lost_collision;        ///< Decoding or detection failed under interference.
+  std::uint64_t lost_collision;        ///< Not detected because of another frame.
+  std::uint64_t lost_interference;     ///< Detected, and spoilt by other frames.
   std::uint64_t lost_half_duplex;      ///< The node was transmitting.
   std::uint64_t lost_jammed;           ///< Would have been received, had nobody jammed.
   /// Received, but the interface did not take it (down, full), or netsim was over 1 s late.
@@ -54,7 +56,7 @@ struct LinkReading {
 /// What the air did: written by netsim, read by the page and the orchestrator.
 struct RadioMemoryLayout {
   static constexpr std::uint64_t kMagic = magic_of("CUSRADIO");
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 3;
 
   struct alignas(kCacheLine) Progress {
     std::atomic<std::uint64_t> heartbeat;

@@ -57,7 +57,9 @@ TEST_CASE("saturated nodes fill their slots, and no two transmissions ever overl
     CHECK(tally.transmissions == 25 * 4);
     CHECK(tally.sent == 25 * 4);
     CHECK(tally.received == 3 * 25 * 4);
-    CHECK(tally.lost_collision + tally.lost_half_duplex + tally.lost_noise == 0);
+    CHECK(tally.lost_collision + tally.lost_interference + tally.lost_half_duplex +
+              tally.lost_noise ==
+          0);
   }
   // At one receiver frames end at least an airtime apart, but for the differences of propagation
   // delay (100 ns at most).

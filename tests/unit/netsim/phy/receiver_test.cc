@@ -1,6 +1,7 @@
 #include "netsim/phy/receiver.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -34,13 +35,16 @@ struct Bench {
             .energy_ends = at(begins_us + 160),
             .mode = &ieee80211g().mode(6'000)};
   }
-  static Arrival arrival(double power_dbm) {
-    return {.receiver = 0, .power_mw = DecibelMilliwatt{power_dbm}.milliwatts()};
+  /// Each has a sender of its own.
+  Arrival arrival(double power_dbm) {
+    return {
+        .sender = ++senders, .receiver = 0, .power_mw = DecibelMilliwatt{power_dbm}.milliwatts()};
   }
 
   NistErrorModel errors;
   ReceiverModel model;
   Receiver receiver;
+  std::uint32_t senders{0};
 };
 
 /// All of one undisturbed reception that begins at 0.
@@ -58,7 +62,7 @@ TEST_CASE("the noise floor of 20 MHz with a noise figure of 7 dB is -93.97 dBm")
 
 TEST_CASE("a strong frame alone is decoded and holds the medium until its end") {
   Bench bench;
-  Arrival frame = Bench::arrival(-70.0);
+  Arrival frame = bench.arrival(-70.0);
 
   bench.receiver.begin(at(0), frame);
   CHECK_FALSE(bench.receiver.medium_busy());  // below the energy threshold, not yet detected
@@ -74,7 +78,7 @@ TEST_CASE("a strong frame alone is decoded and holds the medium until its end") 
 
 TEST_CASE("a frame below the detection threshold is lost as too weak") {
   Bench bench;
-  Arrival frame = Bench::arrival(-82.1);
+  Arrival frame = bench.arrival(-82.1);
 
   CHECK(receive(bench, frame) == Receiver::End::kNotMine);
   CHECK(frame.cause == LossCause::kBelowDetection);
@@ -86,7 +90,7 @@ TEST_CASE("without preamble detection a hopeless frame is lost to noise") {
   parameters.detection_minimum = {kNone};
   parameters.detection_minimum_sinr = {kNone};
   Bench bench{parameters};
-  Arrival frame = Bench::arrival(-97.0);
+  Arrival frame = bench.arrival(-97.0);
 
   CHECK(receive(bench, frame) != Receiver::End::kDecoded);
   CHECK(frame.cause == LossCause::kNoise);
@@ -94,8 +98,8 @@ TEST_CASE("without preamble detection a hopeless frame is lost to noise") {
 
 TEST_CASE("two equal frames at once are both lost to collision") {
   Bench bench;
-  Arrival first = Bench::arrival(-50.0);
-  Arrival second = Bench::arrival(-50.0);
+  Arrival first = bench.arrival(-50.0);
+  Arrival second = bench.arrival(-50.0);
 
   bench.receiver.begin(at(0), first);
   bench.receiver.begin(at(0), second);
@@ -104,13 +108,15 @@ TEST_CASE("two equal frames at once are both lost to collision") {
 
   CHECK(first.cause == LossCause::kCollision);
   CHECK(second.cause == LossCause::kCollision);
+  CHECK(first.interferer == second.sender);
+  CHECK(second.interferer == first.sender);
   CHECK(bench.receiver.medium_busy());  // energy
 }
 
 TEST_CASE("interference during part of a frame is charged to that part and named as the cause") {
   Bench bench;
-  Arrival frame = Bench::arrival(-70.0);
-  Arrival disturber = Bench::arrival(-68.0);
+  Arrival frame = bench.arrival(-70.0);
+  Arrival disturber = bench.arrival(-68.0);
 
   bench.receiver.begin(at(0), frame);
   bench.receiver.detect(at(4), frame, Bench::timing(0));
@@ -120,14 +126,19 @@ TEST_CASE("interference during part of a frame is charged to that part and named
   bench.receiver.energy_ends(at(160), frame);
 
   CHECK(bench.receiver.finish(frame) == Receiver::End::kFailed);
-  CHECK(frame.cause == LossCause::kCollision);
+  CHECK(frame.cause == LossCause::kInterference);
+  CHECK(frame.interferer == disturber.sender);
+  // -70 dBm over -68 dBm and noise; and the other way round.
+  CHECK(10.0 * std::log10(frame.sinr_ratio) == Approx(-2.01).margin(0.01));
+  CHECK(10.0 * std::log10(disturber.sinr_ratio) == Approx(1.98).margin(0.01));
   CHECK(disturber.cause == LossCause::kCollision);  // the receiver was busy with the first
+  CHECK(disturber.interferer == frame.sender);
 }
 
 TEST_CASE("interference that ends before the SIGNAL field does no harm") {
   Bench bench;
-  Arrival disturber = Bench::arrival(-75.0);
-  Arrival frame = Bench::arrival(-70.0);
+  Arrival disturber = bench.arrival(-75.0);
+  Arrival frame = bench.arrival(-70.0);
 
   // The disturber is in its last 10 us when the frame begins.
   bench.receiver.begin(at(-150), disturber);
@@ -144,8 +155,8 @@ TEST_CASE("interference that ends before the SIGNAL field does no harm") {
 std::pair<Receiver::End, Receiver::End> with_stronger_frame(const ReceiverParameters& parameters,
                                                             int later_us) {
   Bench bench{parameters};
-  Arrival first = Bench::arrival(-70.0);
-  Arrival stronger = Bench::arrival(-58.0);
+  Arrival first = bench.arrival(-70.0);
+  Arrival stronger = bench.arrival(-58.0);
   bench.receiver.begin(at(0), first);
   bench.receiver.detect(at(4), first, Bench::timing(0));
   if (later_us > 16) {
@@ -183,8 +194,8 @@ TEST_CASE(
 
 TEST_CASE("a node that transmits receives nothing") {
   Bench bench;
-  Arrival during = Bench::arrival(-50.0);
-  Arrival interrupted = Bench::arrival(-50.0);
+  Arrival during = bench.arrival(-50.0);
+  Arrival interrupted = bench.arrival(-50.0);
 
   bench.receiver.begin(at(0), interrupted);
   bench.receiver.detect(at(4), interrupted, Bench::timing(0));
@@ -200,8 +211,8 @@ TEST_CASE("a node that transmits receives nothing") {
 
 TEST_CASE("energy from several weak frames adds up to a busy medium") {
   Bench bench;
-  Arrival first = Bench::arrival(-64.0);
-  Arrival second = Bench::arrival(-64.0);
+  Arrival first = bench.arrival(-64.0);
+  Arrival second = bench.arrival(-64.0);
 
   bench.receiver.begin(at(0), first);
   CHECK_FALSE(bench.receiver.medium_busy());
