@@ -1,6 +1,6 @@
 #include "netsim/app/ethernet.h"
 
-#include "netsim/mac/dcf.h"
+#include "netsim/mac/mac.h"
 #include "netsim/phy/standard.h"
 
 namespace cuscus::netsim {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "netsim/mac/dcf.h"
+#include "netsim/mac/csma.h"
 #include "netsim/mac/tdma.h"
 
 namespace cuscus::netsim {
@@ -34,11 +34,12 @@ struct KnownMac {
   std::unique_ptr<Mac> (*make)(const MacSetting& setting);
 };
 
+std::unique_ptr<Mac> make_csma(const MacSetting& s, const AccessProfile& profile) {
+  return std::make_unique<Csma>(s.node, *s.parameters, *s.host, *s.rates, s.draws, profile);
+}
+
 const std::array kMacs{
-    KnownMac{"dcf",
-             [](const MacSetting& s) -> std::unique_ptr<Mac> {
-               return std::make_unique<Dcf>(s.node, *s.parameters, *s.host, *s.rates, s.draws);
-             }},
+    KnownMac{"dcf", [](const MacSetting& s) { return make_csma(s, dcf_access(*s.parameters)); }},
     KnownMac{"tdma",
              [](const MacSetting& s) -> std::unique_ptr<Mac> {
                return std::make_unique<Tdma>(s.node, *s.parameters, *s.host);

@@ -18,11 +18,15 @@ namespace cuscus::netsim {
 inline constexpr std::int32_t kGroup = -1;   ///< Broadcast or multicast.
 inline constexpr std::int32_t kNobody = -2;  ///< An address that no node has.
 
+/// 802.1D user priorities, 0 ... 7.
+inline constexpr std::size_t kPriorities = 8;
+
 /// A frame in a station's queue.
 struct Msdu {
   std::uint32_t frame{};  ///< The caller's number for it.
   std::int32_t destination{kGroup};
-  std::uint32_t psdu_bytes{};
+  std::uint32_t psdu_bytes{};  ///< With a non-QoS header.
+  std::uint8_t priority{};     ///< Below kPriorities.
   SimTime queued_at{};
 };
 
@@ -33,7 +37,8 @@ struct MacFrame {
   std::uint32_t sender{};
   std::int32_t receiver{kGroup};
   std::uint32_t frame{};     ///< Of the Msdu; data and RTS only.
-  std::uint32_t sequence{};  ///< Per sender, kept in retries; data only.
+  std::uint32_t sequence{};  ///< Per sender and category, kept in retries; data only.
+  std::uint8_t category{};   ///< Access category; 0 where there is but one.
   Duration duration{};  ///< The Duration field: for how long after its end the medium is taken.
 };
 

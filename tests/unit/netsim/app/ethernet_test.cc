@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
-#include "netsim/mac/dcf.h"
+#include "netsim/mac/mac.h"
 
 namespace cuscus::netsim {
 namespace {

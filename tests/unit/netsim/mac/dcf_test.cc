@@ -1,8 +1,8 @@
-#include "netsim/mac/dcf.h"
-
 #include <array>
 #include <catch2/catch.hpp>
 #include <optional>
+
+#include "netsim/mac/csma.h"
 
 namespace cuscus::netsim {
 namespace {
@@ -32,7 +32,7 @@ int first_backoff() { return static_cast<int>(backoffs().below(0, ieee80211g().c
 /// Stands for PHY and event queue: remembers what the station asks, and plays it on request.
 class Station : public MacHost {
  public:
-  Station() : mac{parameters()}, dcf{kNode, mac, *this, rates, backoffs()} {}
+  Station() : mac{parameters()}, dcf{kNode, mac, *this, rates, backoffs(), dcf_access(mac)} {}
 
   void transmit(std::uint32_t /*node*/, const MacFrame& frame, const Mode& mode,
                 std::uint32_t psdu_bytes) override {
@@ -90,7 +90,7 @@ class Station : public MacHost {
 
   MacParameters mac;
   ConstantRate rates{{.modes = {}, .required_snr = {}, .first = mac.data_mode}};
-  Dcf dcf;
+  Csma dcf;
   SimTime now{};
   SimTime ends{};
   MacFrame sent{};
