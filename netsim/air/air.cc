@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "netsim/air/event_rank.h"
+#include "netsim/mac/edca.h"
 
 namespace cuscus::netsim {
 namespace {
@@ -41,6 +42,19 @@ TdmaSchedule tdma_schedule(const AirParameters& p) {
   return tdma;
 }
 
+EdcaParameters edca_parameters(const AirParameters& p, const Standard& standard) {
+  if (p.edca.empty()) {
+    return default_edca(standard);
+  }
+  require(p.edca.size() == kAccessCategories, "EDCA has 4 categories");
+  for (const EdcaCategory& category : p.edca) {
+    require(category.aifsn >= 2 && category.aifsn <= 15, "an AIFSN must be 2 ... 15");
+    require(category.cw_min <= category.cw_max && category.cw_max <= 32'767,
+            "a category's CWmin must not be above its CWmax, nor that above 32767");
+  }
+  return p.edca;
+}
+
 MacParameters mac_parameters(const AirParameters& p, const Standard& standard) {
   require(p.slot >= Duration::zero(), "the slot must not be negative");
   require(p.retry_limit >= 1 && p.long_retry_limit >= 1,
@@ -60,6 +74,8 @@ MacParameters mac_parameters(const AirParameters& p, const Standard& standard) {
   mac.queue_lifetime = p.queue_lifetime;
   if (p.mac == "tdma") {
     mac.tdma = tdma_schedule(p);
+  } else if (p.mac == "edca") {
+    mac.edca = edca_parameters(p, standard);
   }
   return mac;
 }
@@ -137,6 +153,7 @@ DecibelMilliwatt Air::noise() const {
 
 void Air::offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame) {
   assert(node < stations_.size());
+  assert(frame.priority < kPriorities);
   std::uint32_t slot = 0;
   if (free_pending_.empty()) {
     slot = static_cast<std::uint32_t>(pending_.size());
@@ -150,6 +167,7 @@ void Air::offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame) 
                                .sender = node,
                                .destination = to_itself ? kNobody : frame.destination,
                                .psdu_bytes = frame.psdu_bytes,
+                               .priority = frame.priority,
                                .sent_at = sent_at},
                     .references = 1};
   queue_.schedule(std::max(sent_at, now_), event_rank(EventRank::kOffer, node),
@@ -205,6 +223,7 @@ bool Air::run_next(SimTime limit) {
       station.mac->enqueue(now_, {.frame = step.index,
                                   .destination = report.destination,
                                   .psdu_bytes = report.psdu_bytes,
+                                  .priority = report.priority,
                                   .queued_at = now_});
       break;
     }

@@ -76,7 +76,8 @@ struct AirParameters {
   /// PSDUs above this many bytes are sent after RTS and CTS.
   std::uint32_t rts_threshold_bytes{std::numeric_limits<std::uint32_t>::max()};
   std::string mac{"dcf"};
-  TdmaSchedule tdma{};  ///< Of the MAC "tdma".
+  TdmaSchedule tdma{};    ///< Of the MAC "tdma".
+  EdcaParameters edca{};  ///< Of the MAC "edca"; empty: default_edca() of the standard.
   std::uint32_t queue_frames{500};
   Duration queue_lifetime{std::chrono::milliseconds{500}};
   std::string error_model{"nist"};
@@ -100,7 +101,8 @@ struct AirParameters {
 struct OfferedFrame {
   std::uint64_t id{};  ///< The caller's; not interpreted.
   std::int32_t destination{kGroup};
-  std::uint32_t psdu_bytes{};
+  std::uint32_t psdu_bytes{};  ///< With a non-QoS header, whatever the MAC sends.
+  std::uint8_t priority{};     ///< 802.1D user priority, 0 ... 7.
 };
 
 /// A frame arrived at a node that it was meant for.
@@ -118,6 +120,7 @@ struct FrameReport {
   std::uint32_t sender{};
   std::int32_t destination{};
   std::uint32_t psdu_bytes{};
+  std::uint8_t priority{};
   SimTime sent_at{};
   std::uint32_t attempts{};
   SendOutcome outcome{};

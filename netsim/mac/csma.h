@@ -23,7 +23,7 @@ struct AccessProfile {
 [[nodiscard]] AccessProfile dcf_access(const MacParameters& parameters);
 
 /// One station's carrier sense multiple access with collision avoidance (IEEE Std 802.11-2016,
-/// 10.3): with one category of frames the DCF.
+/// 10.3): with one category of frames the DCF, with four EDCA (edca.h).
 ///
 /// - A frame that finds an idle medium and no backoff pending goes out when the medium has stayed
 ///   idle for DIFS since the frame was queued (and DIFS or EIFS since it was last busy) [10.3.4.2].

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "netsim/mac/csma.h"
+#include "netsim/mac/edca.h"
 #include "netsim/mac/tdma.h"
 
 namespace cuscus::netsim {
@@ -40,6 +41,7 @@ std::unique_ptr<Mac> make_csma(const MacSetting& s, const AccessProfile& profile
 
 const std::array kMacs{
     KnownMac{"dcf", [](const MacSetting& s) { return make_csma(s, dcf_access(*s.parameters)); }},
+    KnownMac{"edca", [](const MacSetting& s) { return make_csma(s, edca_access(*s.parameters)); }},
     KnownMac{"tdma",
              [](const MacSetting& s) -> std::unique_ptr<Mac> {
                return std::make_unique<Tdma>(s.node, *s.parameters, *s.host);

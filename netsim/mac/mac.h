@@ -60,6 +60,18 @@ struct TdmaSchedule {
   std::vector<std::int32_t> frame{};
 };
 
+/// How frames of one access category contend.
+struct EdcaCategory {
+  std::uint32_t aifsn{};  ///< Slots of AIFS, after SIFS.
+  std::uint32_t cw_min{};
+  std::uint32_t cw_max{};
+
+  [[nodiscard]] bool operator==(const EdcaCategory&) const = default;
+};
+/// Background, best effort, video, voice.
+using EdcaParameters = std::vector<EdcaCategory>;
+inline constexpr std::size_t kAccessCategories = 4;
+
 /// Of a station; all stations of a run share one.
 struct MacParameters {
   Duration slot{};
@@ -80,6 +92,7 @@ struct MacParameters {
   const Standard* standard{};
   std::vector<const Mode*> answers{};  ///< To frames of each mode of the standard.
   TdmaSchedule tdma{};
+  EdcaParameters edca{};
 
   /// DIFS, EIFS and control rates that follow from a standard and its basic rates. RTS is sent at
   /// the rate at which the data would be answered.
@@ -147,7 +160,7 @@ struct MacSetting {
   random::CounterStream draws{0, 0};
 };
 
-/// The MAC of that name: "dcf" or "tdma".
+/// The MAC of that name: "dcf", "edca" or "tdma".
 /// @throws std::invalid_argument naming those that exist.
 [[nodiscard]] std::unique_ptr<Mac> make_mac(std::string_view name, const MacSetting& setting);
 

@@ -102,6 +102,7 @@ enum class ControlAnswerRule : std::uint8_t {
 
 /// Sizes of what surrounds a payload [B].
 inline constexpr std::uint32_t kDataHeaderBytes = 24;  ///< MAC header of a non-QoS data frame.
+inline constexpr std::uint32_t kQosControlBytes = 2;   ///< More in that of a QoS data frame.
 inline constexpr std::uint32_t kLlcSnapBytes = 8;
 inline constexpr std::uint32_t kFcsBytes = 4;
 inline constexpr std::uint32_t kAckBytes = 14;

@@ -125,7 +125,7 @@ TEST_CASE("a schedule that cannot be is refused with what is allowed") {
   CHECK_THAT(error_of([](AirParameters& p) { p.rate_control = "aarf"; }),
              Catch::Contains("'aarf' needs ACKs"));
   CHECK_THAT(error_of([](AirParameters& p) { p.mac = "aloha"; }),
-             Catch::Contains("allowed are 'dcf', 'tdma'"));
+             Catch::Contains("allowed are 'dcf', 'edca', 'tdma'"));
 }
 
 }  // namespace

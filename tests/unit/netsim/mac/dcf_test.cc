@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <optional>
 
-#include "netsim/mac/csma.h"
+#include "tests/unit/netsim/mac/csma_station.h"
 
 namespace cuscus::netsim {
 namespace {
@@ -29,76 +29,15 @@ random::CounterStream backoffs() { return {1, kNode}; }
 /// The slots of a station's first backoff, as its stream has them.
 int first_backoff() { return static_cast<int>(backoffs().below(0, ieee80211g().cw_min + 1)); }
 
-/// Stands for PHY and event queue: remembers what the station asks, and plays it on request.
-class Station : public MacHost {
+class Station : public CsmaStation {
  public:
-  Station() : mac{parameters()}, dcf{kNode, mac, *this, rates, backoffs(), dcf_access(mac)} {}
+  Station() : CsmaStation{kNode, parameters(), dcf_access, backoffs()} {}
 
-  void transmit(std::uint32_t /*node*/, const MacFrame& frame, const Mode& mode,
-                std::uint32_t psdu_bytes) override {
-    sent = frame;
-    ends = now + airtime(mode, psdu_bytes);
-    ++transmissions;
-  }
-  void set_timer(std::uint32_t /*node*/, MacTimer timer, SimTime time) override {
-    timers.at(static_cast<std::size_t>(timer)) = time;
-  }
-  void cancel_timer(std::uint32_t /*node*/, MacTimer timer) override {
-    timers.at(static_cast<std::size_t>(timer)).reset();
-  }
-  void finished(std::uint32_t /*node*/, const Msdu& msdu, SendOutcome result,
-                std::uint32_t count) override {
-    outcome = result;
-    attempts = count;
-    finished_frame = msdu.frame;
-  }
-
-  [[nodiscard]] std::optional<SimTime> timer(MacTimer which) const {
-    return timers.at(static_cast<std::size_t>(which));
-  }
-  void fire(MacTimer which) {
-    now = timer(which).value();
-    timers.at(static_cast<std::size_t>(which)).reset();
-    dcf.timer(now, which);
-  }
-  void end_transmission() {
-    now = ends;
-    dcf.transmission_ended(now);
-  }
-  void enqueue(SimTime time, std::int32_t destination, std::uint32_t frame = 1) {
-    now = time;
-    dcf.enqueue(now,
-                {.frame = frame, .destination = destination, .psdu_bytes = 100, .queued_at = now});
-  }
-  void busy(SimTime from, SimTime to) {
-    dcf.medium_busy(from);
-    dcf.medium_idle(to);
-  }
   /// The slots that the access timer has left after `idle_from`, when DIFS has passed.
   [[nodiscard]] int slots_after(SimTime idle_from) const {
     const auto slots = (timer(MacTimer::kAccess).value() - idle_from - mac.difs) / mac.slot;
     return static_cast<int>(slots);
   }
-  void receive_ack() {
-    now = ends + mac.sifs + airtime(mac.answer_to(*mac.data_mode), kAckBytes);
-    dcf.medium_busy(now - microseconds{46});
-    dcf.reception_started(now - microseconds{30});
-    dcf.received(now, {.kind = MacFrame::Kind::kAck, .sender = 1, .receiver = std::int32_t{kNode}},
-                 mac.answer_to(*mac.data_mode));
-    dcf.medium_idle(now);
-  }
-
-  MacParameters mac;
-  ConstantRate rates{{.modes = {}, .required_snr = {}, .first = mac.data_mode}};
-  Csma dcf;
-  SimTime now{};
-  SimTime ends{};
-  MacFrame sent{};
-  int transmissions{0};
-  std::array<std::optional<SimTime>, kMacTimers> timers{};
-  std::optional<SendOutcome> outcome;
-  std::uint32_t attempts{0};
-  std::uint32_t finished_frame{0};
 };
 
 TEST_CASE("timing follows from slot, SIFS and the lowest basic rate") {
@@ -131,11 +70,11 @@ TEST_CASE("a frame that finds an idle medium goes out after DIFS, without backof
 
 TEST_CASE("a frame that finds a busy medium draws a backoff, counted from DIFS after it") {
   Station station;
-  station.dcf.medium_busy(at(900));
+  station.csma.medium_busy(at(900));
 
   station.enqueue(at(1000), kGroup);
   CHECK_FALSE(station.timer(MacTimer::kAccess));
-  station.dcf.medium_idle(at(1200));
+  station.csma.medium_idle(at(1200));
 
   CHECK(station.timer(MacTimer::kAccess) == at(1250 + 20 * first_backoff()));
 }
@@ -153,9 +92,9 @@ TEST_CASE("a medium that becomes busy within DIFS makes an immediate access draw
 
 TEST_CASE("a backoff is frozen while the medium is busy and goes on after DIFS") {
   Station station;
-  station.dcf.medium_busy(at(0));
+  station.csma.medium_busy(at(0));
   station.enqueue(at(10), kGroup);
-  station.dcf.medium_idle(at(100));
+  station.csma.medium_idle(at(100));
   const int slots = station.slots_after(at(100));
   REQUIRE(slots >= 3);  // or the seed has to be another
 
@@ -170,40 +109,40 @@ TEST_CASE("a backoff is frozen while the medium is busy and goes on after DIFS")
 
 TEST_CASE("after a reception that failed EIFS is waited, until one succeeds") {
   Station station;
-  station.dcf.medium_busy(at(0));
+  station.csma.medium_busy(at(0));
   station.enqueue(at(10), kGroup);
-  station.dcf.reception_started(at(20));
-  station.dcf.reception_failed(at(500));
-  station.dcf.medium_idle(at(500));
+  station.csma.reception_started(at(20));
+  station.csma.reception_failed(at(500));
+  station.csma.medium_idle(at(500));
   const int slots = station.slots_after(at(500 + 60));
   CHECK(station.timer(MacTimer::kAccess) == at(500 + 110 + 20 * slots));
 
-  station.dcf.medium_busy(at(560));
-  station.dcf.reception_started(at(576));
-  station.dcf.received(at(700), {.sender = 1, .receiver = kGroup}, *station.mac.group_mode);
-  station.dcf.medium_idle(at(700));
+  station.csma.medium_busy(at(560));
+  station.csma.reception_started(at(576));
+  station.csma.received(at(700), {.sender = 1, .receiver = kGroup}, *station.mac.group_mode);
+  station.csma.medium_idle(at(700));
 
   CHECK(station.timer(MacTimer::kAccess) == at(700 + 50 + 20 * slots));
 }
 
 TEST_CASE("EIFS begins when the medium is idle after the frame that failed, not before") {
   Station station;
-  station.dcf.medium_busy(at(0));
+  station.csma.medium_busy(at(0));
   station.enqueue(at(10), kGroup);
-  station.dcf.reception_failed(at(20));  // its SIGNAL field; the energy stays
-  station.dcf.medium_idle(at(500));
+  station.csma.reception_failed(at(20));  // its SIGNAL field; the energy stays
+  station.csma.medium_idle(at(500));
 
   CHECK(station.timer(MacTimer::kAccess) == at(500 + 110 + 20 * first_backoff()));
 }
 
 TEST_CASE("the duration of a frame for others sets the NAV") {
   Station station;
-  station.dcf.medium_busy(at(0));
+  station.csma.medium_busy(at(0));
   station.enqueue(at(10), kGroup);
-  station.dcf.reception_started(at(20));
-  station.dcf.received(at(500), {.sender = 1, .receiver = 2, .duration = microseconds{60}},
-                       *station.mac.data_mode);
-  station.dcf.medium_idle(at(500));
+  station.csma.reception_started(at(20));
+  station.csma.received(at(500), {.sender = 1, .receiver = 2, .duration = microseconds{60}},
+                        *station.mac.data_mode);
+  station.csma.medium_idle(at(500));
 
   CHECK(station.timer(MacTimer::kAccess) == at(500 + 60 + 50 + 20 * first_backoff()));
 }
@@ -265,14 +204,14 @@ TEST_CASE("a missing ACK doubles the window up to its maximum; the seventh drops
     station.fire(MacTimer::kAnswerTimeout);
     if (attempt < 7) {
       CHECK_FALSE(station.outcome);
-      CHECK(station.dcf.contention_window() == windows.at(static_cast<std::size_t>(attempt - 1)));
+      CHECK(station.csma.contention_window() == windows.at(static_cast<std::size_t>(attempt - 1)));
     }
   }
 
   CHECK(station.outcome == SendOutcome::kRetryLimit);
   CHECK(station.attempts == 7);
-  CHECK(station.dcf.contention_window() == 15);
-  CHECK(station.dcf.queued() == 0);
+  CHECK(station.csma.contention_window() == 15);
+  CHECK(station.csma.queued() == 0);
 }
 
 TEST_CASE("a retry keeps its sequence number and a new frame gets another") {
@@ -298,15 +237,16 @@ TEST_CASE("an ACK whose reception has begun by the timeout is waited for") {
   station.fire(MacTimer::kAccess);
   station.end_transmission();
   const SimTime ended = station.ends;
-  station.dcf.medium_busy(ended + microseconds{14});
-  station.dcf.reception_started(ended + microseconds{30});
+  station.csma.medium_busy(ended + microseconds{14});
+  station.csma.reception_started(ended + microseconds{30});
 
   station.fire(MacTimer::kAnswerTimeout);
   CHECK_FALSE(station.outcome);
-  CHECK(station.dcf.contention_window() == 15);
-  station.dcf.received(ended + microseconds{60},
-                       {.kind = MacFrame::Kind::kAck, .sender = 1, .receiver = std::int32_t{kNode}},
-                       station.mac.answer_to(*station.mac.data_mode));
+  CHECK(station.csma.contention_window() == 15);
+  station.csma.received(
+      ended + microseconds{60},
+      {.kind = MacFrame::Kind::kAck, .sender = 1, .receiver = std::int32_t{kNode}},
+      station.mac.answer_to(*station.mac.data_mode));
 
   CHECK(station.outcome == SendOutcome::kAcknowledged);
 }
@@ -315,21 +255,21 @@ TEST_CASE("data is acknowledged after SIFS, and its repetition is acknowledged b
   Station station;
   const MacFrame data{.sender = 1, .receiver = std::int32_t{kNode}, .sequence = 9};
 
-  CHECK(station.dcf.received(at(500), data, *station.mac.data_mode));
+  CHECK(station.csma.received(at(500), data, *station.mac.data_mode));
   CHECK(station.timer(MacTimer::kResponse) == at(510));
   station.fire(MacTimer::kResponse);
   CHECK(station.sent.kind == MacFrame::Kind::kAck);
   CHECK(station.sent.receiver == 1);
   station.end_transmission();
 
-  CHECK_FALSE(station.dcf.received(at(2000), data, *station.mac.data_mode));
+  CHECK_FALSE(station.csma.received(at(2000), data, *station.mac.data_mode));
   CHECK(station.timer(MacTimer::kResponse) == at(2010));
 }
 
 TEST_CASE("a reply goes out DIFS after the ACK of what it answers") {
   Station station;
   const MacFrame data{.sender = 1, .receiver = std::int32_t{kNode}, .sequence = 9};
-  station.dcf.received(at(500), data, *station.mac.data_mode);
+  station.csma.received(at(500), data, *station.mac.data_mode);
   station.enqueue(at(500), 1);
   CHECK_FALSE(station.timer(MacTimer::kAccess));
 
@@ -341,7 +281,7 @@ TEST_CASE("a reply goes out DIFS after the ACK of what it answers") {
 
 TEST_CASE("a full queue and an expired frame are dropped with their causes") {
   Station station;
-  station.dcf.medium_busy(at(0));
+  station.csma.medium_busy(at(0));
   station.enqueue(at(10), kGroup, 1);
   station.enqueue(at(11), kGroup, 2);
   station.enqueue(at(600'000), kGroup, 3);
@@ -350,7 +290,7 @@ TEST_CASE("a full queue and an expired frame are dropped with their causes") {
   CHECK(station.outcome == SendOutcome::kQueueFull);
   CHECK(station.finished_frame == 4);
 
-  station.dcf.medium_idle(at(600'100));
+  station.csma.medium_idle(at(600'100));
   station.fire(MacTimer::kAccess);
 
   CHECK(station.outcome == SendOutcome::kLifetime);
@@ -366,10 +306,10 @@ class AnnouncingStation : public Station {
   /// The answer to what has just been sent, SIFS after it.
   void receive_answer(MacFrame::Kind kind) {
     now = ends + mac.sifs + airtime(mac.answer_to(*mac.rts_mode), kCtsBytes);
-    dcf.medium_busy(now - microseconds{46});
-    dcf.reception_started(now - microseconds{30});
-    dcf.received(now, {.kind = kind, .sender = 1, .receiver = std::int32_t{kNode}}, *mac.rts_mode);
-    dcf.medium_idle(now);
+    csma.medium_busy(now - microseconds{46});
+    csma.reception_started(now - microseconds{30});
+    csma.received(now, {.kind = kind, .sender = 1, .receiver = std::int32_t{kNode}}, *mac.rts_mode);
+    csma.medium_idle(now);
   }
 };
 
@@ -440,18 +380,18 @@ TEST_CASE("an RTS is answered by a CTS for the rest of its time, unless the NAV 
                      .receiver = std::int32_t{kNode},
                      .duration = microseconds{500}};
   Station station;
-  CHECK_FALSE(station.dcf.received(at(500), rts, *station.mac.rts_mode));
+  CHECK_FALSE(station.csma.received(at(500), rts, *station.mac.rts_mode));
   CHECK(station.timer(MacTimer::kResponse) == at(510));
   station.fire(MacTimer::kResponse);
   CHECK(station.sent.kind == MacFrame::Kind::kCts);
   CHECK(station.sent.duration == microseconds{500 - 10 - 50});
 
   Station reserved;
-  reserved.dcf.received(
+  reserved.csma.received(
       at(400),
       {.kind = MacFrame::Kind::kCts, .sender = 2, .receiver = 3, .duration = microseconds{300}},
       *reserved.mac.rts_mode);
-  reserved.dcf.received(at(500), rts, *reserved.mac.rts_mode);
+  reserved.csma.received(at(500), rts, *reserved.mac.rts_mode);
   CHECK_FALSE(reserved.timer(MacTimer::kResponse));
 }
 
@@ -460,18 +400,18 @@ TEST_CASE("the NAV of an RTS is taken back when nothing follows, and stays when 
       .kind = MacFrame::Kind::kRts, .sender = 1, .receiver = 2, .duration = microseconds{2'000}};
   const auto access_after = [&](bool data_follows) {
     Station station;
-    station.dcf.medium_busy(at(0));
+    station.csma.medium_busy(at(0));
     station.enqueue(at(10), kGroup);
-    station.dcf.reception_started(at(20));
-    station.dcf.received(at(500), rts, *station.mac.rts_mode);
-    station.dcf.medium_idle(at(500));
+    station.csma.reception_started(at(20));
+    station.csma.received(at(500), rts, *station.mac.rts_mode);
+    station.csma.medium_idle(at(500));
     // 2 SIFS, a CTS of 50 us, aRxPHYStartDelay of 20 us and 2 slots
     CHECK(station.timer(MacTimer::kNavReset) == at(500 + 20 + 50 + 20 + 40));
     if (data_follows) {
-      station.dcf.medium_busy(at(574));
-      station.dcf.reception_started(at(590));
+      station.csma.medium_busy(at(574));
+      station.csma.reception_started(at(590));
       CHECK_FALSE(station.timer(MacTimer::kNavReset));
-      station.dcf.medium_idle(at(600));
+      station.csma.medium_idle(at(600));
     } else {
       station.fire(MacTimer::kNavReset);
     }

@@ -166,7 +166,8 @@ TEST_CASE("a station takes group frames and those addressed to it") {
 }
 
 TEST_CASE("a MAC that does not exist is refused with the names of those that do") {
-  CHECK_THROWS_WITH(make_mac("csma", {}), "MAC 'csma' is not known; allowed are 'dcf', 'tdma'");
+  CHECK_THROWS_WITH(make_mac("csma", {}),
+                    "MAC 'csma' is not known; allowed are 'dcf', 'edca', 'tdma'");
 }
 
 }  // namespace
