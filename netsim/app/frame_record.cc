@@ -68,7 +68,18 @@ bool read(std::string_view field, Duration& value) {
   return whole;
 }
 
-/// Numbers with blanks between them.
+std::string text_of(const EdcaCategory& category) {
+  return text_of(category.aifsn) + '/' + text_of(category.cw_min) + '/' + text_of(category.cw_max);
+}
+bool read(std::string_view field, EdcaCategory& category) {
+  const std::size_t first = std::min(field.find('/'), field.size());
+  const std::size_t second = std::min(field.find('/', first + 1), field.size());
+  return second < field.size() && read(field.substr(0, first), category.aifsn) &&
+         read(field.substr(first + 1, second - first - 1), category.cw_min) &&
+         read(field.substr(second + 1), category.cw_max);
+}
+
+/// Numbers, or groups of them, with blanks between.
 template <typename Number>
 std::string text_of(const std::vector<Number>& values) {
   std::string text;
@@ -131,6 +142,7 @@ void for_each_common(Parameters& p, const Field& field) {
   field("tdma_slot_ns", p.tdma.slot);
   field("tdma_guard_ns", p.tdma.guard);
   field("tdma_frame", p.tdma.frame);
+  field("edca", p.edca);
   field("queue_frames", p.queue_frames);
   field("queue_lifetime_ns", p.queue_lifetime);
   field("error_model", p.error_model);
@@ -188,7 +200,8 @@ std::string frame_log_header(const AirParameters& p) {
   for_each_common(p, [&text](std::string_view key, const auto& value) {
     text << "\n# " << key << '=' << text_of(value);
   });
-  text << "\nsent_ns,node,destination,bytes,attempts,outcome,delivered_count,first_delivery_ns\n";
+  text << "\nsent_ns,node,destination,bytes,attempts,outcome,delivered_count,first_delivery_ns,"
+          "priority\n";
   return text.str();
 }
 
@@ -203,7 +216,8 @@ void append_frame_record(std::string& text, const FrameRecord& r) {
   }
   text += ',' + std::to_string(r.frame_bytes) + ',' + std::to_string(r.attempts) + ',';
   text += name_of(r.outcome);
-  text += ',' + std::to_string(r.deliveries) + ',' + std::to_string(r.first_delivery_ns) + '\n';
+  text += ',' + std::to_string(r.deliveries) + ',' + std::to_string(r.first_delivery_ns) + ',' +
+          std::to_string(r.priority) + '\n';
 }
 
 std::optional<FrameRecord> parse_frame_record(std::string_view line) {
@@ -231,8 +245,11 @@ std::optional<FrameRecord> parse_frame_record(std::string_view line) {
     return std::nullopt;
   }
   r.outcome = static_cast<SendOutcome>(index);
-  if (!read(next_field(line), r.deliveries) || !read(next_field(line), r.first_delivery_ns) ||
-      !line.empty()) {
+  if (!read(next_field(line), r.deliveries) || !read(next_field(line), r.first_delivery_ns)) {
+    return std::nullopt;
+  }
+  if (!line.empty() &&
+      (!read(next_field(line), r.priority) || r.priority >= kPriorities || !line.empty())) {
     return std::nullopt;
   }
   return r;

@@ -20,15 +20,16 @@ struct FrameRecord {
   SendOutcome outcome;
   std::uint32_t deliveries;
   std::int64_t first_delivery_ns;  ///< SimTime; 0 where there is none.
+  std::uint8_t priority;           ///< Below kPriorities.
 };
 
 /// The lines before the first record: what the radio was, and the names of the columns.
 [[nodiscard]] std::string frame_log_header(const AirParameters& parameters);
 
-/// "sent_ns,node,destination,bytes,attempts,outcome,delivered_count,first_delivery_ns\n".
+/// "sent_ns,node,destination,bytes,attempts,outcome,delivered_count,first_delivery_ns,priority\n".
 void append_frame_record(std::string& text, const FrameRecord& record);
 
-/// Reads a record's line; nothing when it is none.
+/// Reads a record's line; nothing when it is none. A line without priority has 0.
 [[nodiscard]] std::optional<FrameRecord> parse_frame_record(std::string_view line);
 
 /// Takes a "# key=value" line of the header into `parameters`; false when it is no such line.

@@ -258,7 +258,8 @@ void LiveAir::finished(const FrameReport& report) {
                .attempts = report.attempts,
                .outcome = report.outcome,
                .deliveries = report.deliveries,
-               .first_delivery_ns = report.deliveries > 0 ? to_ns(report.first_delivery) : 0});
+               .first_delivery_ns = report.deliveries > 0 ? to_ns(report.first_delivery) : 0,
+               .priority = report.priority});
   }
   frame.air_done = true;
   frames_.drop_if_over(number);

@@ -53,27 +53,32 @@ void LiveAir::take(const shm::SendStamp& stamp) {
 void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
                     std::int64_t entered_ns) {
   LiveFrame& live = frames_[frame];
-  const auto destination = parse_ethernet(head, live.frame_bytes);
-  if (!destination) {
+  const auto parsed = parse_ethernet(head, live.frame_bytes);
+  if (!parsed) {
     ++ports_[live.node].malformed;
     live.air_done = true;
     frames_.drop_if_over(frame);
     return;
   }
-  const std::int32_t to = addresses_.destination(*destination);
+  const std::int32_t to = addresses_.destination(*parsed);
   ingress_delay_.add(entered_ns - live.sent_ns);
   Port& port = ports_[live.node];
   if (++port.outstanding > air_.mac().queue_frames + kBeyondQueue) {
     ++port.refused;
-    finished({.id = frame, .destination = to, .outcome = SendOutcome::kQueueFull});
+    finished({.id = frame,
+              .destination = to,
+              .priority = parsed->priority,
+              .outcome = SendOutcome::kQueueFull});
     return;
   }
   if (live.sent_ns < to_ns(air_.now())) {
     clamp_.add(to_ns(air_.now()) - live.sent_ns);
   }
-  air_.offer(
-      live.node, sim_time(live.sent_ns),
-      {.id = frame, .destination = to, .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes)});
+  air_.offer(live.node, sim_time(live.sent_ns),
+             {.id = frame,
+              .destination = to,
+              .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
+              .priority = parsed->priority});
 }
 
 /// Reads every TAP that has something, a bounded number of frames each; false when none had.

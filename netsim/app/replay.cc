@@ -142,7 +142,8 @@ ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power) {
     simulated.offer(frame.node, sim_time(frame.sent_ns),
                     {.id = 0,
                      .destination = frame.destination,
-                     .psdu_bytes = psdu_bytes_of_ethernet(frame.frame_bytes)});
+                     .psdu_bytes = psdu_bytes_of_ethernet(frame.frame_bytes),
+                     .priority = frame.priority});
     last_ns = frame.sent_ns;
     add(frame.destination == kGroup ? result.group.live : result.individual.live, frame.sent_ns,
         frame.attempts, frame.deliveries, frame.first_delivery_ns);

@@ -22,7 +22,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
           parse_frame_record(std::string_view{written}.substr(0, written.size() - 1));
       must(again && again->sent_ns == record->sent_ns && again->node == record->node &&
                again->destination == record->destination &&
-               again->first_delivery_ns == record->first_delivery_ns,
+               again->first_delivery_ns == record->first_delivery_ns &&
+               again->priority == record->priority && record->priority < kPriorities,
            "a record does not survive writing and reading");
     }
     try {

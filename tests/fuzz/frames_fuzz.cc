@@ -16,15 +16,16 @@ using namespace cuscus::netsim;  // NOLINT(google-build-using-namespace): a main
 using Bytes = std::span<const std::uint8_t>;
 
 void check_parse(Bytes frame, std::uint32_t frame_bytes) {
-  const auto destination = parse_ethernet(frame, frame_bytes);
-  if (!destination) {
+  const auto head = parse_ethernet(frame, frame_bytes);
+  if (!head) {
     return;
   }
   must(frame_bytes >= kEthernetHeaderBytes, "a runt was taken");
   must(frame_bytes - kEthernetHeaderBytes + kLlcSnapBytes <= kMaximumMsduBytes,
        "a giant was taken");
-  must(destination->address < (std::uint64_t{1} << 48U), "an address has more than 48 bits");
-  must(destination->group == ((destination->address >> 40U & 1U) != 0), "the group bit is wrong");
+  must(head->destination < (std::uint64_t{1} << 48U), "an address has more than 48 bits");
+  must(head->group == ((head->destination >> 40U & 1U) != 0), "the group bit is wrong");
+  must(head->priority < kPriorities, "there is no such priority");
   must(psdu_bytes_of_ethernet(frame_bytes) <= kMaximumMsduBytes + kDataHeaderBytes + kFcsBytes,
        "a PSDU is longer than an MSDU and its header");
 }

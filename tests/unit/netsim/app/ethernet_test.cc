@@ -40,7 +40,7 @@ TEST_CASE("addresses are read, and the group bit is the lowest of the first octe
   const auto multicast = parse_ethernet(frame(0x01, 0x0800, 60), 60);
 
   REQUIRE(unicast);
-  CHECK(unicast->address == 0x020203040506U);
+  CHECK(unicast->destination == 0x020203040506U);
   CHECK_FALSE(unicast->group);
   REQUIRE(multicast);
   CHECK(multicast->group);
@@ -65,14 +65,36 @@ TEST_CASE("a stamp's head is enough to parse a longer frame") {
   CHECK(parse_ethernet(octets, 1514).has_value());
 }
 
+TEST_CASE("the priority is the precedence in the DSCP of IPv4 and IPv6, and 0 for the rest") {
+  const auto priority = [](std::uint16_t type, std::uint8_t first, std::uint8_t second) {
+    auto octets = frame(0x02, type, 60);
+    octets[14] = first;
+    octets[15] = second;
+    return int{parse_ethernet(octets, 60).value().priority};
+  };
+
+  // DSCP 46 (expedited forwarding) is 101 110, DSCP 8 (CS1) 001 000, DSCP 56 (CS7) 111 000. Behind
+  // it come two bits of congestion notification.
+  CHECK(priority(0x0800, 0x45, 46 << 2) == 5);
+  CHECK(priority(0x0800, 0x45, 8 << 2 | 3) == 1);
+  CHECK(priority(0x0800, 0x45, 56 << 2) == 7);
+  CHECK(priority(0x0800, 0x45, 7 << 2 | 3) == 0);
+  // IPv6: four bits of version, eight of traffic class, twenty of flow label.
+  CHECK(priority(0x86dd, 0x60 | (46 << 2) >> 4, 0x8f) == 5);
+  CHECK(priority(0x86dd, 0x6e, 0x00) == 7);
+  CHECK(priority(0x86dd, 0x61, 0xff) == 0);
+  CHECK(priority(0x0806, 0xff, 0xff) == 0);
+  CHECK(parse_ethernet(frame(0x02, 0x0800, 14), 14).value().priority == 0);
+}
+
 TEST_CASE("the address book knows nodes, groups and strangers") {
   AddressBook book;
   CHECK(book.add(0x020203040506U, 5));
   CHECK_FALSE(book.add(0x020203040506U, 6));
 
-  CHECK(book.destination({.address = 0x020203040506U, .group = false}) == 5);
-  CHECK(book.destination({.address = 0x0aU, .group = false}) == kNobody);
-  CHECK(book.destination({.address = 0xffffffffffffU, .group = true}) == kGroup);
+  CHECK(book.destination({.destination = 0x020203040506U, .group = false}) == 5);
+  CHECK(book.destination({.destination = 0x0aU, .group = false}) == kNobody);
+  CHECK(book.destination({.destination = 0xffffffffffffU, .group = true}) == kGroup);
 }
 
 }  // namespace

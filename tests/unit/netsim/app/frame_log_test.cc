@@ -61,6 +61,7 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   parameters.mac = "tdma";
   parameters.tdma = {
       .slot = Duration{3'000'000}, .guard = Duration{7'000}, .frame = {2, kNobody, 0}};
+  parameters.edca = {{7, 15, 1023}, {3, 15, 1023}, {2, 7, 15}, {2, 3, 7}};
   parameters.channel.fading = "rice";
   parameters.antenna = {.model = "pattern", .pattern_dbi = {1.25, -2.0}, .pattern_azimuths = 1};
   parameters.disruption = {.fraction = 0.4, .phase = DisruptionPhase::kRandom, .seed = 77};
@@ -75,7 +76,9 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
 
   {
     FrameLog log{std::move(file.fd), parameters};
-    log.add(record(5'000'000, 2, 0));
+    FrameRecord urgent = record(5'000'000, 2, 0);
+    urgent.priority = 6;
+    log.add(urgent);
     log.add(record(1'000'000, 0, kGroup));
     log.add(record(2'000'000, 1, kNobody));
     CHECK(log.finish() == 0);
@@ -98,6 +101,7 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.air.tdma.slot == parameters.tdma.slot);
   CHECK(log.air.tdma.guard == parameters.tdma.guard);
   CHECK(log.air.tdma.frame == parameters.tdma.frame);
+  CHECK(log.air.edca == parameters.edca);
   CHECK(log.air.channel.fading == "rice");
   CHECK(log.air.antenna.model == "pattern");
   CHECK(log.air.antenna.pattern_dbi == std::vector<double>{1.25, -2.0});
@@ -122,6 +126,7 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.frames[0].deliveries == 2);
   CHECK(log.frames[1].destination == kNobody);
   CHECK(log.frames[2].destination == 0);
+  CHECK(log.frames[2].priority == 6);
   CHECK(log.frames[2].outcome == SendOutcome::kAcknowledged);
   CHECK(log.frames[2].first_delivery_ns == 5'252'000);
 }
@@ -212,7 +217,12 @@ TEST_CASE("a line that is no record is refused with file and line") {
                     Catch::Contains(file.path + ":3: not a frame record of a 2-node log"));
   CHECK_FALSE(parse_frame_record("1,0,group,100,1,unheard-of,1,2"));
   CHECK_FALSE(parse_frame_record("1,0,group,100,1,sent,1"));
-  CHECK_FALSE(parse_frame_record("1,0,group,100,1,sent,1,2,3"));
+  CHECK_FALSE(parse_frame_record("1,0,group,100,1,sent,1,2,8"));
+  CHECK_FALSE(parse_frame_record("1,0,group,100,1,sent,1,2,3,4"));
+}
+
+TEST_CASE("a line from before there were priorities has priority 0") {
+  CHECK(parse_frame_record("1,0,group,100,1,sent,1,2").value().priority == 0);
 }
 
 }  // namespace
