@@ -18,10 +18,13 @@ double psdu_airtime_s(const Radio& radio, std::uint32_t psdu_bytes, std::uint32_
   return (scale * (20.0 + 4.0 * symbols) + extension) * 1e-6;
 }
 
-std::uint32_t psdu_bytes(std::uint32_t ip_bytes) { return 24 + 8 + ip_bytes + 4; }
+std::uint32_t psdu_bytes(const Radio& radio, std::uint32_t ip_bytes) {
+  const std::uint32_t header_bytes = std::holds_alternative<EdcaMac>(radio.mac) ? 26 : 24;
+  return header_bytes + 8 + ip_bytes + 4;
+}
 
 double airtime_s(const Radio& radio, std::uint32_t ip_bytes, std::uint32_t rate_kbps) {
-  return psdu_airtime_s(radio, psdu_bytes(ip_bytes), rate_kbps);
+  return psdu_airtime_s(radio, psdu_bytes(radio, ip_bytes), rate_kbps);
 }
 
 }  // namespace cuscus::scenario

@@ -207,7 +207,7 @@ Radio read_radio(const json* value, const std::filesystem::path& folder, Problem
   radio.long_retry_limit =
       reader.integer<std::uint32_t>("long_retry_limit", radio.long_retry_limit, {1, 255});
   radio.rts_threshold_bytes = read_rts_threshold(reader);
-  radio.mac = read_mac(reader.child("mac"), reader.path_of("mac"), problems);
+  radio.mac = read_mac(reader.child("mac"), reader.path_of("mac"), radio.standard, problems);
   read_queue(reader.child("queue"), reader.path_of("queue"), radio, problems);
   radio.error_model = reader.choice("error_model", radio.error_model, kErrorModelNames);
   read_cca(reader.child("cca"), reader.path_of("cca"), radio, problems);

@@ -131,6 +131,21 @@ struct Capture {
 /// Distributed coordination function: listen before talk.
 struct DcfMac {};
 
+/// How frames of one access category contend.
+struct EdcaCategory {
+  std::uint32_t aifsn{};  ///< Slots after SIFS.
+  std::uint32_t cw_min{};
+  std::uint32_t cw_max{};
+};
+
+/// Enhanced distributed channel access: the DCF with priorities.
+struct EdcaMac {
+  EdcaCategory background;
+  EdcaCategory best_effort;
+  EdcaCategory video;
+  EdcaCategory voice;
+};
+
 /// Time division multiple access.
 struct TdmaMac {
   Duration slot{std::chrono::microseconds{2500}};
@@ -140,7 +155,7 @@ struct TdmaMac {
 };
 inline constexpr std::string_view kNoOwner = "-";
 
-using Mac = std::variant<DcfMac, TdmaMac>;
+using Mac = std::variant<DcfMac, EdcaMac, TdmaMac>;
 
 struct IsotropicAntenna {};
 struct DipoleAntenna {};  ///< Half-wave, along the body's z axis.
@@ -378,17 +393,21 @@ struct Scenario {
 /// What a radio of that standard has where a scenario says nothing else.
 [[nodiscard]] Radio default_radio(RadioStandard standard);
 
+/// EDCA's parameters where a scenario says nothing else: IEEE Std 802.11-2016, table 9-137, and
+/// 9-138 for 802.11p.
+[[nodiscard]] EdcaMac default_edca(RadioStandard standard);
+
 /// Time on air of a frame whose IP packet has `ip_bytes`, preamble and signal extension included.
 ///
 /// OFDM: 20 us + 4 us ceil((16 + 8 L + 6) / N_DBPS), 6 us more in 802.11g, all of it doubled in
-/// 802.11p; DSSS: 192 us (96 us with a short preamble) + 8 L / R, with L the PSDU: 24 B of header,
-/// 8 B of LLC/SNAP, the packet, 4 B of FCS.
+/// 802.11p; DSSS: 192 us (96 us with a short preamble) + 8 L / R, with L the PSDU: 24 B of header
+/// (26 B with EDCA), 8 B of LLC/SNAP, the packet, 4 B of FCS.
 /// Source: IEEE Std 802.11-2020, 18.3.2.4 and 17.3.2 (equation 17-29), 16.3.4.
 [[nodiscard]] double airtime_s(const Radio& radio, std::uint32_t ip_bytes, std::uint32_t rate_kbps);
 [[nodiscard]] double psdu_airtime_s(const Radio& radio, std::uint32_t psdu_bytes,
                                     std::uint32_t rate_kbps);
 /// MAC header, LLC/SNAP and FCS around an IP packet.
-[[nodiscard]] std::uint32_t psdu_bytes(std::uint32_t ip_bytes);
+[[nodiscard]] std::uint32_t psdu_bytes(const Radio& radio, std::uint32_t ip_bytes);
 
 /// The JSON schema of scenarios (draft-07), as it is in scenarios/scenario.schema.json.
 [[nodiscard]] std::string_view scenario_schema();

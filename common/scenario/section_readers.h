@@ -24,7 +24,7 @@ namespace cuscus::scenario {
 [[nodiscard]] Fading read_fading(const nlohmann::json* value, const std::string& path,
                                  Problems& problems);
 [[nodiscard]] Mac read_mac(const nlohmann::json* value, const std::string& path,
-                           Problems& problems);
+                           RadioStandard standard, Problems& problems);
 [[nodiscard]] std::optional<Disruption> read_disruption(const nlohmann::json* value,
                                                         const std::string& path,
                                                         Problems& problems);

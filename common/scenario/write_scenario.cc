@@ -99,6 +99,18 @@ Json json_of(const std::optional<Shadowing>& shadowing) {
 
 Json json_of(const DcfMac& /*mac*/) { return {{"model", "dcf"}}; }
 
+Json json_of(const EdcaCategory& category) {
+  return {{"aifsn", category.aifsn}, {"cw_min", category.cw_min}, {"cw_max", category.cw_max}};
+}
+
+Json json_of(const EdcaMac& edca) {
+  return {{"model", "edca"},
+          {"background", json_of(edca.background)},
+          {"best_effort", json_of(edca.best_effort)},
+          {"video", json_of(edca.video)},
+          {"voice", json_of(edca.voice)}};
+}
+
 Json json_of(const TdmaMac& tdma) {
   return {{"model", "tdma"},
           {"slot", text(tdma.slot)},

@@ -33,6 +33,7 @@ struct Options {
   std::vector<double> basic_rates_mbps{6.0, 12.0, 24.0};
   bool short_preamble{false};
   double slot_us{0.0};
+  std::vector<unsigned> priorities{0};
   double tdma_slot_ms{2.5};
   double tdma_guard_us{10.0};
   double carrier_ghz{2.412};
@@ -92,7 +93,10 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::IsMember({"constant", "ideal", "aarf", "minstrel"}))
       ->capture_default_str();
   app.add_option("--mac", o.run.air.mac, "Medium access")
-      ->check(CLI::IsMember({"dcf", "tdma"}))
+      ->check(CLI::IsMember({"dcf", "edca", "tdma"}))
+      ->capture_default_str();
+  app.add_option("--priorities", o.priorities, "User priorities of the senders in turn, 0 ... 7")
+      ->check(CLI::Range(0, 7))
       ->capture_default_str();
   app.add_option("--tdma-slot", o.tdma_slot_ms, "One for every node in turn [ms]")
       ->check(CLI::PositiveNumber)
@@ -153,6 +157,7 @@ void apply(Options& o) {
   }
   air.dsss_preamble = o.short_preamble ? DsssPreamble::kShort : DsssPreamble::kLong;
   air.slot = nanoseconds(o.slot_us * 1e-6);
+  o.run.traffic.priorities.assign(o.priorities.begin(), o.priorities.end());
   air.tdma.slot = nanoseconds(o.tdma_slot_ms * 1e-3);
   air.tdma.guard = nanoseconds(o.tdma_guard_us * 1e-6);
   air.channel.carrier_hz = o.carrier_ghz * 1e9;

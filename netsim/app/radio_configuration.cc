@@ -25,6 +25,10 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
   air.tdma = {.slot = Duration{c.tdma().slot_ns()},
               .guard = Duration{c.tdma().guard_ns()},
               .frame = {c.tdma().frame().begin(), c.tdma().frame().end()}};
+  for (const proto::EdcaCategory& category : c.edca().categories()) {
+    air.edca.push_back(
+        {.aifsn = category.aifsn(), .cw_min = category.cw_min(), .cw_max = category.cw_max()});
+  }
   air.queue_frames = c.queue_frames();
   air.queue_lifetime = Duration{c.queue_lifetime_ns()};
   air.error_model = c.error_model();

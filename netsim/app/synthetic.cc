@@ -143,7 +143,8 @@ class Run final : public AirListener {
     air_.offer(node, at,
                {.id = static_cast<std::uint64_t>(id),
                 .destination = destination,
-                .psdu_bytes = psdu_bytes_of_udp(traffic.udp_payload_bytes)});
+                .psdu_bytes = psdu_bytes_of_udp(traffic.udp_payload_bytes),
+                .priority = traffic.priorities[node % traffic.priorities.size()]});
   }
 
   void offer_next_beacon(std::uint32_t node) {

@@ -31,7 +31,8 @@ struct Traffic {
   bool to_sink{false};  ///< All to one further node that sends nothing, not to a neighbour each.
   std::uint32_t udp_payload_bytes{64};
   Duration period{std::chrono::milliseconds{50}};
-  Duration jitter{0};  ///< Per beacon, uniform.
+  Duration jitter{0};                       ///< Per beacon, uniform.
+  std::vector<std::uint8_t> priorities{0};  ///< User priorities of the senders, in turn.
 };
 
 struct SyntheticParameters {

@@ -39,10 +39,15 @@ double sifs_s(scenario::RadioStandard standard) {
   }
 }
 
-/// DIFS and the mean of the first backoff, of 0 ... 15 slots (802.11b: 31); TDMA has neither.
+/// DIFS and the mean of the first backoff, of 0 ... 15 slots (802.11b: 31), or those of EDCA's best
+/// effort; TDMA has neither.
 double contention_s(const scenario::Radio& radio) {
   if (std::holds_alternative<scenario::TdmaMac>(radio.mac)) {
     return 0.0;
+  }
+  if (const auto* edca = std::get_if<scenario::EdcaMac>(&radio.mac)) {
+    return sifs_s(radio.standard) +
+           (edca->best_effort.aifsn + edca->best_effort.cw_min / 2.0) * seconds(radio.slot);
   }
   const double mean_backoff_slots = radio.standard == scenario::RadioStandard::k80211b ? 15.5 : 7.5;
   return sifs_s(radio.standard) + (2.0 + mean_backoff_slots) * seconds(radio.slot);
@@ -52,8 +57,8 @@ double contention_s(const scenario::Radio& radio) {
 double announcement_s(const scenario::Radio& radio, std::uint32_t ip_bytes) {
   constexpr std::uint32_t kRts_bytes = 20;
   constexpr std::uint32_t kCts_bytes = 14;
-  if (!std::holds_alternative<scenario::DcfMac>(radio.mac) || !radio.rts_threshold_bytes ||
-      psdu_bytes(ip_bytes) <= *radio.rts_threshold_bytes) {
+  if (std::holds_alternative<scenario::TdmaMac>(radio.mac) || !radio.rts_threshold_bytes ||
+      psdu_bytes(radio, ip_bytes) <= *radio.rts_threshold_bytes) {
     return 0.0;
   }
   const std::uint32_t rate_kbps = radio.basic_rates_kbps.front();
@@ -67,7 +72,7 @@ CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
   const double others = scenario.node_count() - 1.0;
   const scenario::Radio& radio = scenario.radio;
   constexpr std::uint32_t kAck_bytes = 14;
-  const bool acknowledges = std::holds_alternative<scenario::DcfMac>(radio.mac);
+  const bool acknowledges = !std::holds_alternative<scenario::TdmaMac>(radio.mac);
   const double ack_s = acknowledges
                            ? sifs_s(radio.standard) +
                                  psdu_airtime_s(radio, kAck_bytes, radio.basic_rates_kbps.front())

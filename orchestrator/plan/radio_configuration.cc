@@ -38,6 +38,29 @@ void add_antenna(const scenario::Antenna& from, proto::RadioConfiguration& resul
   }
 }
 
+void add_category(const scenario::EdcaCategory& from, proto::EdcaConfiguration& result) {
+  proto::EdcaCategory& category = *result.add_categories();
+  category.set_aifsn(from.aifsn);
+  category.set_cw_min(from.cw_min);
+  category.set_cw_max(from.cw_max);
+}
+
+void add_mac(const scenario::Mac& from, proto::RadioConfiguration& result) {
+  if (const auto* tdma = std::get_if<scenario::TdmaMac>(&from)) {
+    result.set_mac("tdma");
+    result.mutable_tdma()->set_slot_ns(tdma->slot.count());
+    result.mutable_tdma()->set_guard_ns(tdma->guard.count());
+  } else if (const auto* edca = std::get_if<scenario::EdcaMac>(&from)) {
+    result.set_mac("edca");
+    for (const scenario::EdcaCategory& category :
+         {edca->background, edca->best_effort, edca->video, edca->voice}) {
+      add_category(category, *result.mutable_edca());
+    }
+  } else {
+    result.set_mac("dcf");
+  }
+}
+
 void set_line_of_sight(const scenario::LineOfSight& from, proto::PropagationConfiguration& result) {
   result.set_line_of_sight(from.mean ? "mean" : "drawn");
   result.set_line_of_sight_decorrelation_m(from.decorrelation_m);
@@ -106,12 +129,7 @@ proto::RadioConfiguration radio_configuration(const scenario::Radio& from, std::
   radio.set_long_retry_limit(from.long_retry_limit);
   radio.set_rts_threshold_bytes(
       from.rts_threshold_bytes.value_or(std::numeric_limits<std::uint32_t>::max()));
-  const auto* const tdma = std::get_if<scenario::TdmaMac>(&from.mac);
-  radio.set_mac(tdma != nullptr ? "tdma" : "dcf");
-  if (tdma != nullptr) {
-    radio.mutable_tdma()->set_slot_ns(tdma->slot.count());
-    radio.mutable_tdma()->set_guard_ns(tdma->guard.count());
-  }
+  add_mac(from.mac, radio);
   radio.set_queue_frames(from.queue_frames);
   radio.set_queue_lifetime_ns(from.queue_lifetime.count());
   radio.set_error_model(name_of(scenario::kErrorModelNames, from.error_model));

@@ -282,6 +282,44 @@ TEST_CASE("Slots go to nodes by number, and to nobody where they have no owner")
   CHECK_FALSE(radio_of(R"({"model": "dcf"})").has_tdma());
 }
 
+TEST_CASE("EDCA's categories reach the radio in order, with the standard's values by default") {
+  const auto edca_of = [](const std::string& radio) {
+    return plan_of(R"({"name": "t", "fleet": [{}], "radio": )" + radio + "}").radio;
+  };
+  const auto text = [](const proto::EdcaCategory& category) {
+    return std::to_string(category.aifsn()) + '/' + std::to_string(category.cw_min()) + '/' +
+           std::to_string(category.cw_max());
+  };
+
+  const proto::RadioConfiguration vehicular =
+      edca_of(R"({"standard": "802.11p", "mac": {"model": "edca", "voice": {"aifsn": 5}}})");
+  CHECK(vehicular.mac() == "edca");
+  REQUIRE(vehicular.edca().categories_size() == 4);
+  CHECK(text(vehicular.edca().categories(0)) == "9/15/1023");
+  CHECK(text(vehicular.edca().categories(1)) == "6/15/1023");
+  CHECK(text(vehicular.edca().categories(2)) == "3/7/15");
+  CHECK(text(vehicular.edca().categories(3)) == "5/3/7");
+  const proto::RadioConfiguration dsss =
+      edca_of(R"({"standard": "802.11b", "mac": {"model": "edca"}})");
+  CHECK(text(dsss.edca().categories(0)) == "7/31/1023");
+  CHECK(text(dsss.edca().categories(1)) == "3/31/1023");
+  CHECK(text(dsss.edca().categories(2)) == "2/15/31");
+  CHECK(text(dsss.edca().categories(3)) == "2/7/15");
+  CHECK_FALSE(edca_of("{}").has_edca());
+}
+
+TEST_CASE("The estimate of an EDCA air has the AIFS of best effort and the longer header") {
+  const auto busy = [](const std::string& radio) {
+    return plan_of(R"({"name": "t", "fleet": [{"count": 10}], "radio": )" + radio + "}")
+        .capacity.air_busy_fraction;
+  };
+
+  // 250 frames per second: AIFSN 3 is one slot of 20 us more than DIFS, and 2 B more take a symbol
+  // of 4 us more: of 24 bits there are 22 + 8 * 144 or 146 in a beacon of 108 B of IP (49 and 50
+  // symbols), 22 + 8 * 134 or 136 in a report of 98 B (46 and 47).
+  CHECK(busy(R"({"mac": {"model": "edca"}})") - busy("{}") == Approx(250.0 * 24e-6));
+}
+
 TEST_CASE("The estimate of a TDMA air has neither backoff nor ACK") {
   const auto busy = [](const std::string& radio) {
     return plan_of(R"({"name": "t", "fleet": [{"count": 10}], "radio": )" + radio + "}")

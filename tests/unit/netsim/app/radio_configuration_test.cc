@@ -33,6 +33,12 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   c.mutable_tdma()->set_guard_ns(7'000);
   c.mutable_tdma()->add_frame(0);
   c.mutable_tdma()->add_frame(kNobody);
+  for (const std::uint32_t aifsn : {9U, 6U, 3U, 2U}) {
+    auto* const category = c.mutable_edca()->add_categories();
+    category->set_aifsn(aifsn);
+    category->set_cw_min(7);
+    category->set_cw_max(63);
+  }
   c.set_queue_frames(10);
   c.set_queue_lifetime_ns(1'000);
   c.set_error_model("yans");
@@ -91,6 +97,7 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   CHECK(air.tdma.slot == Duration{3'000'000});
   CHECK(air.tdma.guard == Duration{7'000});
   CHECK(air.tdma.frame == std::vector<std::int32_t>{0, kNobody});
+  CHECK(air.edca == EdcaParameters{{9, 7, 63}, {6, 7, 63}, {3, 7, 63}, {2, 7, 63}});
   CHECK(air.queue_frames == 10);
   CHECK(air.queue_lifetime == Duration{1'000});
   CHECK(air.error_model == "yans");
