@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "common/random/counter_stream.h"
+#include "common/units/constants.h"
 #include "netsim/channel/aerial_loss.h"
 #include "netsim/channel/street_canyon.h"
 
@@ -46,6 +47,9 @@ std::unique_ptr<const PathLossModel> make_paper_equation_1(const ChannelParamete
   require(p.alpha > 0.0 && std::isfinite(p.alpha), p.model, "alpha must be above 0");
   require(p.chi_db2 >= 0.0 && std::isfinite(p.chi_db2), p.model,
           "chi is a variance and must be at least 0 dB^2");
+  require(p.outer_wall.value >= 0.0 && std::isfinite(p.outer_wall.value) &&
+              p.inner_wall.value >= 0.0 && std::isfinite(p.inner_wall.value),
+          p.model, "walls must lose at least 0 dB");
   return std::make_unique<PaperEquation1>(p.alpha);
 }
 
@@ -112,6 +116,10 @@ void require_term(bool holds, const std::string& rule) {
   }
 }
 
+std::unique_ptr<const Obstacles> make_obstacles(const ChannelParameters& p) {
+  return p.obstacles.empty() ? nullptr : std::make_unique<BoxObstacles>(p.obstacles);
+}
+
 std::unique_ptr<const Shadowing> make_shadowing(const ChannelParameters& p) {
   require_term(p.shadowing_db >= 0.0 && std::isfinite(p.shadowing_db),
                "shadowing: the standard deviation must be at least 0 dB");
@@ -163,12 +171,24 @@ Decibel FrameVariation::loss(const FrameOnLink& frame) const {
 }
 
 Channel::Channel(const ChannelParameters& parameters)
+    : Channel{parameters, make_obstacles(parameters)} {}
+
+Channel::Channel(const ChannelParameters& parameters, std::unique_ptr<const Obstacles> obstacles)
     : carrier_hz_{parameters.carrier_hz},
+      counts_walls_{parameters.model == "paper-eq1"},
+      outer_wall_{parameters.outer_wall},
+      inner_wall_{parameters.inner_wall},
       path_loss_{make_path_loss(parameters)},
+      obstacles_{std::move(obstacles)},
       shadowing_{make_shadowing(parameters)},
       fading_{make_fading(parameters)} {
   if (!(carrier_hz_ > 0.0) || !std::isfinite(carrier_hz_)) {
     throw std::invalid_argument{"carrier frequency must be above 0 Hz"};
+  }
+  if (obstacles_ && (parameters.model == "al-hourani" || parameters.model == "tr36777")) {
+    throw std::invalid_argument{"propagation model '" + parameters.model +
+                                "' stands in for a map and cannot be used with obstacles; allowed "
+                                "are models without line of sight by chance, or no obstacles"};
   }
   if (parameters.model == "paper-eq1" && parameters.chi_db2 > 0.0) {
     variation_ = std::make_unique<FrameVariation>(parameters.seed, parameters.chi_db2);
@@ -184,10 +204,39 @@ std::vector<std::string> Channel::model_names() {
   return names;
 }
 
-Decibel Channel::static_loss(const Link& link) const {
-  const Decibel basic =
-      path_loss_->loss({.p_WT = link.p_WL, .p_WR = link.p_WH, .carrier_hz = carrier_hz_});
-  return shadowing_ ? basic + shadowing_->loss(link) : basic;
+StaticTerms Channel::static_terms(const Link& link) const {
+  StaticTerms terms;
+  terms.basic = path_loss_->loss({.p_WT = link.p_WL, .p_WR = link.p_WH, .carrier_hz = carrier_hz_});
+  if (obstacles_) {
+    terms.obstacles = obstacle_terms_of(link);
+  }
+  if (shadowing_) {
+    terms.shadowing = shadowing_->loss(link);
+  }
+  return terms;
+}
+
+ObstacleTerms Channel::obstacle_terms_of(const Link& link) const {
+  // By their coordinates, so that the bits do not depend on how the nodes are numbered either.
+  const Eigen::Vector3d* a = &link.p_WL;
+  const Eigen::Vector3d* b = &link.p_WH;
+  if (std::lexicographical_compare(b->begin(), b->end(), a->begin(), a->end())) {
+    std::swap(a, b);
+  }
+  const double wavelength_m = kSpeedOfLight_mps / carrier_hz_;
+  std::vector<Obstruction> found;
+  obstacles_->find(*a, *b, clear_zone_m(wavelength_m), found);
+  if (!counts_walls_) {
+    return obstacle_terms(found, *a, *b, wavelength_m);
+  }
+  ObstacleTerms terms;
+  for (const Obstruction& body : found) {
+    terms.walls.outer += body.walls.outer;
+    terms.walls.inner += body.walls.inner;
+  }
+  terms.outer_walls = {terms.walls.outer * outer_wall_.value};
+  terms.inner_walls = {terms.walls.inner * inner_wall_.value};
+  return terms;
 }
 
 Decibel Channel::greatest_frame_gain() const {
@@ -197,15 +246,15 @@ Decibel Channel::greatest_frame_gain() const {
   return fading_ ? fading_->greatest_gain() : Decibel{0.0};
 }
 
-Decibel Channel::frame_loss(const FrameOnLink& frame) const {
-  Decibel loss{0.0};
+FrameTerms Channel::frame_terms(const FrameOnLink& frame) const {
+  FrameTerms terms;
   if (variation_) {
-    loss = loss + variation_->loss(frame);
+    terms.variation = variation_->loss(frame);
   }
   if (fading_) {
-    loss = loss + fading_->loss(frame);
+    terms.fading = fading_->loss(frame);
   }
-  return loss;
+  return terms;
 }
 
 }  // namespace cuscus::netsim
