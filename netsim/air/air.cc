@@ -294,7 +294,7 @@ void Air::release(std::uint32_t frame) {
   }
   const FrameReport report = pending.report;
   if (report.destination >= 0 && report.deliveries == 0) {
-    stations_[static_cast<std::size_t>(report.destination)].tally.count(pending.destination_cause);
+    stations_[static_cast<std::size_t>(report.destination)].tally.count(report.last_loss);
   }
   free_pending_.push_back(frame);
   listener_->finished(report);

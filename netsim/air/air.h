@@ -25,7 +25,8 @@ class PositionSource {
  public:
   virtual ~PositionSource() = default;
 
-  /// Of all nodes, by number, ENU [m]; valid until the next call.
+  /// Of all nodes, by number, ENU [m]; valid until the next call. Asked again for the same instant
+  /// it gives the same.
   [[nodiscard]] virtual const std::vector<Eigen::Vector3d>& positions(SimTime now) = 0;
   /// How they are turned, q_WB by number, at the latest positions(); valid as long. Empty: all are
   /// level and face east.
@@ -112,6 +113,7 @@ struct Delivery {
   std::uint32_t sender;
   std::uint32_t receiver;
   DecibelMilliwatt received_power;
+  std::uint32_t rate_kbps{};
 };
 
 /// A frame is over: nothing of it is on the air or will be.
@@ -126,6 +128,9 @@ struct FrameReport {
   SendOutcome outcome{};
   std::uint32_t deliveries{};
   SimTime first_delivery{};  ///< Valid when there are deliveries.
+  /// Why its last attempt did not get through, of an individually addressed frame without
+  /// deliveries; kNone when no attempt was made or an RTS that arrived was not answered.
+  LossCause last_loss{LossCause::kNone};
 };
 
 /// Whoever is told what becomes of frames. May call Air::offer() from within.
@@ -207,7 +212,6 @@ class Air final : private MacHost {
   struct Pending {
     FrameReport report;
     std::uint32_t references{0};  ///< The MAC, and transmissions that carry it.
-    LossCause destination_cause{LossCause::kNone};
   };
   struct Step {
     enum class Kind : std::uint8_t { kOffer, kSweep, kTransmissionEnd, kTimer };
@@ -228,6 +232,7 @@ class Air final : private MacHost {
   void spread(Transmission& transmission, std::uint32_t sender);
   [[nodiscard]] static std::uint64_t rank_of_phase(Phase phase, std::uint32_t index);
   void sweep(std::uint32_t index, Phase phase, SimTime limit);
+  void leave_out(const Ppdu& ppdu, std::uint32_t receiver);
   void report_reception(const Transmission& transmission, const Arrival& arrival);
   void sweep_one(Transmission& transmission, Phase phase, Arrival& arrival);
   [[nodiscard]] bool disrupted(const Transmission& transmission, const Arrival& arrival) const;

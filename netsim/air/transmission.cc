@@ -81,7 +81,6 @@ void Air::update_reach(std::uint32_t sender) {
 void Air::spread(Transmission& transmission, std::uint32_t sender) {
   update_reach(sender);
   Station& station = stations_[sender];
-  const bool data = transmission.ppdu.frame.kind == MacFrame::Kind::kData;
   const auto* const positions =
       channel_.varies_per_frame() ? &positions_->positions(now_) : nullptr;
   transmission.arrivals.clear();
@@ -101,12 +100,22 @@ void Air::spread(Transmission& transmission, std::uint32_t sender) {
                                        .receiver = reach.receiver,
                                        .delay = reach.delay,
                                        .power_mw = power_mw});
-    } else if (data && transmission.ppdu.frame.receiver == kGroup) {
-      stations_[reach.receiver].tally.count(LossCause::kBelowFloor);
     } else if (belongs_to_pending(transmission.ppdu.frame) &&
                meant_for(transmission.ppdu.frame, reach.receiver)) {
-      pending_[transmission.ppdu.frame.frame].destination_cause = LossCause::kBelowFloor;
+      leave_out(transmission.ppdu, reach.receiver);
     }
+  }
+}
+
+/// A frame arrives below the floor at a node that it is meant for.
+void Air::leave_out(const Ppdu& ppdu, std::uint32_t receiver) {
+  if (ppdu.frame.receiver == kGroup) {
+    stations_[receiver].tally.count(LossCause::kBelowFloor);
+  } else {
+    pending_[ppdu.frame.frame].report.last_loss = LossCause::kBelowFloor;
+  }
+  if (monitor_ != nullptr) {
+    monitor_->unreached(ppdu, receiver);
   }
 }
 
@@ -151,6 +160,8 @@ void Air::transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
     transmission.ppdu.offer_id = report.id;
   }
   if (monitor_ != nullptr) {
+    static_cast<void>(positions_->positions(now_));
+    transmission.ppdu.positions_version = positions_->version();
     monitor_->transmitted(transmission.ppdu);
   }
   spread(transmission, node);
@@ -286,7 +297,7 @@ void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
     if (data && frame.receiver == kGroup) {
       station.tally.count(arrival.cause);
     } else if (belongs_to_pending(frame) && meant_for(frame, receiver)) {
-      pending_[frame.frame].destination_cause = arrival.cause;
+      pending_[frame.frame].report.last_loss = arrival.cause;
     }
     if (end == Receiver::End::kFailed) {
       station.mac->reception_failed(now_);
@@ -307,7 +318,8 @@ void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
                           .id = report.id,
                           .sender = frame.sender,
                           .receiver = receiver,
-                          .received_power = DecibelMilliwatt::from_milliwatts(power_mw)});
+                          .received_power = DecibelMilliwatt::from_milliwatts(power_mw),
+                          .rate_kbps = transmission.timing.mode->rate_kbps});
   }
 }
 

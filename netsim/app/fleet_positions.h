@@ -27,6 +27,7 @@ class FleetPositions final : public PositionSource {
   const shm::FleetMemoryReader* fleet_;
   std::vector<Eigen::Vector3d> p_WB_;
   std::vector<Eigen::Quaterniond> q_WB_;
+  SimTime read_at_{};
   std::uint64_t steps_{0};
   std::uint64_t version_{1};
   std::uint64_t unreadable_{0};

@@ -74,7 +74,7 @@ void relax() {
 LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
     : stamps_{std::move(setup.stamps)},
       log_{std::move(setup.log)},
-      air_{setup.air, positions, *this},
+      air_{setup.air, positions, *this, &monitors_},
       wake_{make_epoll()},
       taps_{make_epoll()},
       buffer_(TapPort::kBufferBytes) {
@@ -93,6 +93,8 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
   }
   if (!setup.radio_memory.empty()) {
     radio_memory_.emplace(setup.radio_memory, air_.node_count());
+    link_counts_.emplace(*radio_memory_);
+    monitors_.add(*link_counts_);
   }
   if (stamps_) {
     watch(wake_, stamps_->fd(), static_cast<std::uint32_t>(Wake::kStamps));
@@ -236,10 +238,12 @@ void LiveAir::delivered(const Delivery& delivery) {
     radio_memory_->publish_link(
         delivery.receiver, delivery.sender,
         {.received_dbm = static_cast<float>(delivery.received_power.value),
+         .rate_kbps = delivery.rate_kbps,
          .sim_time_ms = static_cast<std::uint32_t>(to_ns(delivery.time) / kMillisecond)});
+    link_counts_->delivered(delivery);
   }
   if (frame.payload == LiveFrame::Payload::kLost) {
-    ++ports_[delivery.receiver].lost_interface;
+    lose_copy(frame.node, delivery.receiver);
     return;
   }
   ++frame.copies;
@@ -250,6 +254,9 @@ void LiveAir::finished(const FrameReport& report) {
   const auto number = static_cast<std::uint32_t>(report.id);
   LiveFrame& frame = frames_[number];
   --ports_[frame.node].outstanding;
+  if (link_counts_) {
+    link_counts_->finished(report);
+  }
   if (log_) {
     log_->add({.sent_ns = frame.sent_ns,
                .node = frame.node,
@@ -263,6 +270,14 @@ void LiveAir::finished(const FrameReport& report) {
   }
   frame.air_done = true;
   frames_.drop_if_over(number);
+}
+
+/// A frame that was received does not get into the receiver's interface.
+void LiveAir::lose_copy(std::uint32_t sender, std::uint32_t receiver) {
+  ++ports_[receiver].lost_interface;
+  if (link_counts_) {
+    link_counts_->lost_at_interface(sender, receiver);
+  }
 }
 
 void LiveAir::write_one_copy() {
@@ -282,11 +297,11 @@ void LiveAir::write_one_copy() {
   }
   Port& port = ports_[copy.receiver];
   if (again.payload == LiveFrame::Payload::kLost || port.tap.fd() < 0) {
-    ++port.lost_interface;
+    lose_copy(again.node, copy.receiver);
   } else {
     release_lateness_.add(now_ns() - to_ns(copy.due));
     if (too_late || !port.tap.write(again.bytes)) {
-      ++port.lost_interface;
+      lose_copy(again.node, copy.receiver);
     }
   }
   --again.copies;

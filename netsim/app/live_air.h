@@ -12,6 +12,7 @@
 #include "netsim/app/ethernet.h"
 #include "netsim/app/frame_log.h"
 #include "netsim/app/frame_store.h"
+#include "netsim/app/link_counts.h"
 #include "netsim/app/stamp_matcher.h"
 #include "netsim/app/stamp_ring.h"
 #include "netsim/app/tap_port.h"
@@ -96,6 +97,7 @@ class LiveAir final : private AirListener {
   void lost(std::span<const std::uint32_t> frames);
   void give_up_lost_frames(std::int64_t now);
   void write_one_copy();
+  void lose_copy(std::uint32_t sender, std::uint32_t receiver);
 
   void housekeep(LiveOwner& owner, std::int64_t now);
   void publish(std::uint32_t first, std::uint32_t count);
@@ -106,6 +108,8 @@ class LiveAir final : private AirListener {
   std::unique_ptr<StampRing> stamps_;
   std::unique_ptr<FrameLog> log_;
   std::optional<shm::RadioMemoryWriter> radio_memory_;
+  std::optional<LinkCounts> link_counts_;
+  AirMonitors monitors_;
   Air air_;
   posix::UniqueFd wake_;  ///< epoll: owner and stamps, or owner and TAPs.
   posix::UniqueFd taps_;  ///< epoll: all TAPs.

@@ -60,12 +60,15 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
     frames_.drop_if_over(frame);
     return;
   }
-  const std::int32_t to = addresses_.destination(*parsed);
+  // To itself: no radio answers.
+  const std::int32_t addressed = addresses_.destination(*parsed);
+  const std::int32_t to = addressed == static_cast<std::int32_t>(live.node) ? kNobody : addressed;
   ingress_delay_.add(entered_ns - live.sent_ns);
   Port& port = ports_[live.node];
   if (++port.outstanding > air_.mac().queue_frames + kBeyondQueue) {
     ++port.refused;
     finished({.id = frame,
+              .sender = live.node,
               .destination = to,
               .priority = parsed->priority,
               .outcome = SendOutcome::kQueueFull});
@@ -208,7 +211,7 @@ void LiveAir::lost(std::span<const std::uint32_t> frames) {
     --awaited_;
     ++ports_[live.node].before_air;
     for (const DueCopy& copy : live.late) {
-      ++ports_[copy.receiver].lost_interface;
+      lose_copy(live.node, copy.receiver);
       --live.copies;
     }
     live.late.clear();

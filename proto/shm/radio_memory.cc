@@ -1,6 +1,7 @@
 #include "proto/shm/radio_memory.h"
 
-#include <bit>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <new>
 
@@ -8,9 +9,48 @@ namespace cuscus::shm {
 namespace {
 
 constexpr std::size_t kSlotsAt = sizeof(RadioMemoryLayout);
+/// kToGroup and kToNobody.
+constexpr std::size_t kMoreReceivers = 2;
+
+std::size_t tallies_at(std::uint32_t node_count) {
+  return kSlotsAt + node_count * sizeof(RadioMemoryLayout::Slot);
+}
+
+std::size_t tally_count(std::size_t node_count) {
+  return node_count * (node_count + kMoreReceivers);
+}
 
 std::size_t links_at(std::uint32_t node_count) {
-  return kSlotsAt + node_count * sizeof(RadioMemoryLayout::Slot);
+  return tallies_at(node_count) + tally_count(node_count) * sizeof(LinkTallySlot);
+}
+
+std::size_t tally_index(std::size_t node_count, std::uint32_t sender, std::int32_t receiver) {
+  const std::size_t column = receiver >= 0          ? static_cast<std::size_t>(receiver)
+                             : receiver == kToGroup ? node_count
+                                                    : node_count + 1;
+  return sender * (node_count + kMoreReceivers) + column;
+}
+
+// A LinkReading in one word.
+constexpr unsigned kLevelAt = 48;
+constexpr unsigned kRateAt = 32;
+constexpr float kLevelsPerDecibel = 100.0F;
+constexpr float kHighestLevel = 32'767.0F;
+constexpr std::uint32_t kRateUnit_kbps = 500;
+
+std::uint64_t word_of(const LinkReading& reading) {
+  const auto level = static_cast<std::int16_t>(std::lround(
+      std::clamp(reading.received_dbm * kLevelsPerDecibel, -kHighestLevel, kHighestLevel)));
+  const std::uint64_t rate = reading.rate_kbps / kRateUnit_kbps;
+  return static_cast<std::uint64_t>(static_cast<std::uint16_t>(level)) << kLevelAt |
+         rate << kRateAt | reading.sim_time_ms;
+}
+
+LinkReading reading_of(std::uint64_t word) {
+  return {.received_dbm =
+              static_cast<float>(static_cast<std::int16_t>(word >> kLevelAt)) / kLevelsPerDecibel,
+          .rate_kbps = static_cast<std::uint32_t>(word >> kRateAt & 0xffffU) * kRateUnit_kbps,
+          .sim_time_ms = static_cast<std::uint32_t>(word)};
 }
 
 }  // namespace
@@ -23,6 +63,8 @@ std::size_t RadioMemoryWriter::byte_size(std::uint32_t node_count) {
 RadioMemoryWriter::RadioMemoryWriter(std::span<std::byte> memory, std::uint32_t node_count)
     : layout_{new (memory.data()) RadioMemoryLayout{}},
       slots_{reinterpret_cast<RadioMemoryLayout::Slot*>(memory.data() + kSlotsAt), node_count},
+      tallies_{reinterpret_cast<LinkTallySlot*>(memory.data() + tallies_at(node_count)),
+               tally_count(node_count)},
       links_{reinterpret_cast<std::atomic<std::uint64_t>*>(memory.data() + links_at(node_count)),
              static_cast<std::size_t>(node_count) * node_count} {
   write_header(memory, {.magic = RadioMemoryLayout::kMagic,
@@ -30,6 +72,7 @@ RadioMemoryWriter::RadioMemoryWriter(std::span<std::byte> memory, std::uint32_t 
                         .node_count = node_count,
                         .byte_size = byte_size(node_count)});
   std::uninitialized_value_construct(slots_.begin(), slots_.end());
+  std::uninitialized_value_construct(tallies_.begin(), tallies_.end());
   std::uninitialized_value_construct(links_.begin(), links_.end());
 }
 
@@ -43,11 +86,12 @@ void RadioMemoryWriter::publish(const RadioTiming& timing) noexcept {
 
 void RadioMemoryWriter::publish_link(std::uint32_t receiver, std::uint32_t sender,
                                      LinkReading reading) noexcept {
-  const std::uint64_t word =
-      (static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(reading.received_dbm)) << 32U) |
-      reading.sim_time_ms;
   links_[static_cast<std::size_t>(receiver) * slots_.size() + sender].store(
-      word, std::memory_order_relaxed);
+      word_of(reading), std::memory_order_relaxed);
+}
+
+LinkTallySlot& RadioMemoryWriter::link_tally(std::uint32_t sender, std::int32_t receiver) noexcept {
+  return tallies_[tally_index(slots_.size(), sender, receiver)];
 }
 
 void RadioMemoryWriter::beat(std::int64_t sim_time_ns) noexcept {
@@ -64,6 +108,8 @@ RadioMemoryReader::RadioMemoryReader(std::span<const std::byte> memory)
     throw LayoutError{"radio memory: its size does not fit its number of nodes"};
   }
   slots_ = {reinterpret_cast<const RadioMemoryLayout::Slot*>(memory.data() + kSlotsAt), count};
+  tallies_ = {reinterpret_cast<const LinkTallySlot*>(memory.data() + tallies_at(count)),
+              tally_count(count)};
   links_ = {reinterpret_cast<const std::atomic<std::uint64_t>*>(memory.data() + links_at(count)),
             static_cast<std::size_t>(count) * count};
 }
@@ -88,8 +134,12 @@ std::optional<LinkReading> RadioMemoryReader::link(std::uint32_t receiver,
   if (word == 0) {
     return std::nullopt;
   }
-  return LinkReading{.received_dbm = std::bit_cast<float>(static_cast<std::uint32_t>(word >> 32U)),
-                     .sim_time_ms = static_cast<std::uint32_t>(word)};
+  return reading_of(word);
+}
+
+LinkTally RadioMemoryReader::link_tally(std::uint32_t sender,
+                                        std::int32_t receiver) const noexcept {
+  return tallies_[tally_index(slots_.size(), sender, receiver)].load();
 }
 
 std::uint64_t RadioMemoryReader::heartbeat() const noexcept {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "proto/shm/layout.h"
+#include "proto/shm/link_tally.h"
 #include "proto/shm/seqlock.h"
 
 namespace cuscus::shm {
@@ -47,16 +48,21 @@ struct RadioTiming {
   std::uint64_t events;
 };
 
-/// The latest frame heard over one directed link.
+/// The latest data frame heard over one directed link.
 struct LinkReading {
-  float received_dbm;
+  float received_dbm;  ///< Kept to a hundredth.
+  std::uint32_t rate_kbps;
   std::uint32_t sim_time_ms;
 };
+
+/// In the place of a receiver: group frames of a sender, and those to an address that nobody has.
+inline constexpr std::int32_t kToGroup = -1;
+inline constexpr std::int32_t kToNobody = -2;
 
 /// What the air did: written by netsim, read by the page and the orchestrator.
 struct RadioMemoryLayout {
   static constexpr std::uint64_t kMagic = magic_of("CUSRADIO");
-  static constexpr std::uint32_t kVersion = 3;
+  static constexpr std::uint32_t kVersion = 4;
 
   struct alignas(kCacheLine) Progress {
     std::atomic<std::uint64_t> heartbeat;
@@ -69,8 +75,11 @@ struct RadioMemoryLayout {
 
   Header header;
   Progress progress;
-  // node_count Slots follow, then node_count x node_count links, receiver-major, each one word:
-  // the bits of received_dbm above sim_time_ms; 0 where nothing was ever heard.
+  // node_count Slots follow, then a LinkTallySlot for each sender and receiver, sender-major, with
+  // two more receivers for kToGroup and kToNobody; then node_count x node_count links,
+  // receiver-major, each one word: level in hundredths of a dBm (16 bits), rate in 500 kb/s (16),
+  // sim_time_ms (32); 0 where nothing was ever heard. 72 B per link: 0.7 MB for 100 nodes, 72 MB
+  // for 1000.
 };
 
 class RadioMemoryWriter {
@@ -81,12 +90,15 @@ class RadioMemoryWriter {
   void publish(std::uint32_t node, const RadioTally& tally) noexcept;
   void publish(const RadioTiming& timing) noexcept;
   void publish_link(std::uint32_t receiver, std::uint32_t sender, LinkReading reading) noexcept;
+  /// What is counted there is seen by readers at once. `receiver` may be kToGroup or kToNobody.
+  [[nodiscard]] LinkTallySlot& link_tally(std::uint32_t sender, std::int32_t receiver) noexcept;
   /// Says that netsim lives and how far it has got.
   void beat(std::int64_t sim_time_ns) noexcept;
 
  private:
   RadioMemoryLayout* layout_;
   std::span<RadioMemoryLayout::Slot> slots_;
+  std::span<LinkTallySlot> tallies_;
   std::span<std::atomic<std::uint64_t>> links_;
 };
 
@@ -101,12 +113,15 @@ class RadioMemoryReader {
   /// Nothing when `receiver` never heard `sender`.
   [[nodiscard]] std::optional<LinkReading> link(std::uint32_t receiver,
                                                 std::uint32_t sender) const noexcept;
+  /// `receiver` may be kToGroup or kToNobody.
+  [[nodiscard]] LinkTally link_tally(std::uint32_t sender, std::int32_t receiver) const noexcept;
   [[nodiscard]] std::uint64_t heartbeat() const noexcept;
   [[nodiscard]] std::int64_t sim_time_ns() const noexcept;
 
  private:
   const RadioMemoryLayout* layout_;
   std::span<const RadioMemoryLayout::Slot> slots_;
+  std::span<const LinkTallySlot> tallies_;
   std::span<const std::atomic<std::uint64_t>> links_;
 };
 

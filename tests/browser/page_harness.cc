@@ -218,6 +218,7 @@ class Surroundings {
         tally.lost_collision += frames_ / 50;
         radio_.publish_link(receiver, sender,
                             {.received_dbm = static_cast<float>(level_dbm),
+                             .rate_kbps = 6'000,
                              .sim_time_ms = static_cast<std::uint32_t>(now_ns / 1'000'000)});
       }
       radio_.publish(receiver, tally);
