@@ -20,6 +20,7 @@
 #include "orchestrator/app/run_registry.h"
 #include "orchestrator/app/sampler.h"
 #include "orchestrator/plan/plan.h"
+#include "orchestrator/results/links.h"
 #include "orchestrator/results/run_directory.h"
 
 namespace cuscus::orchestrator {
@@ -82,15 +83,27 @@ class Handover {
 };
 
 /// False when it could not be written, and why is said.
-bool save(const RunDirectory& directory, std::string_view name,
-          const nlohmann::ordered_json& content) {
+bool save(const RunDirectory& directory, std::string_view name, const std::string& content) {
   try {
-    directory.write_file(std::string{name}, content.dump(2) + "\n");
+    directory.write_file(std::string{name}, content);
     return true;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     return false;
   }
+}
+
+/// What was counted per link; true when there is nothing to save.
+bool save_links(const RunDirectory& directory, const Plan& plan, const LiveRun& run) {
+  const auto& radio = run.memories().radio_reader();
+  if (!radio) {
+    return true;
+  }
+  std::vector<std::string> names;
+  for (const auto& node : plan.nodes) {
+    names.push_back(node.name);
+  }
+  return save(directory, kLinksFile, links_csv(names, *radio));
 }
 
 void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& fidelity,
@@ -111,13 +124,13 @@ void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& 
 
 /// Judges the run, saves what can be saved and says how it ended; its exit code.
 int conclude(const FlightEnd& end, RunOutcome outcome, const FidelityInputs& inputs,
-             const RunDirectory& directory) {
+             const RunDirectory& directory, bool links_saved) {
   const Fidelity fidelity = judge(inputs);
   outcome.exit_code = exit_code_of(end, fidelity.verdict);
-  if (!save(directory, kFidelityFile, to_json(fidelity, inputs))) {
+  if (!save(directory, kFidelityFile, to_json(fidelity, inputs).dump(2) + "\n") || !links_saved) {
     outcome.exit_code = kExitFailed;
   }
-  if (!save(directory, kSummaryFile, to_json(outcome, fidelity))) {
+  if (!save(directory, kSummaryFile, to_json(outcome, fidelity).dump(2) + "\n")) {
     outcome.exit_code = kExitFailed;
   }
   print_end(end, outcome, fidelity, directory.path());
@@ -182,7 +195,9 @@ int run_command(const RunArguments& arguments) {
   facts.suspended = std::chrono::nanoseconds{suspended_ns() - suspended_before_ns};
   RunOutcome outcome = run_outcome(plan, run, sampler, facts);
   outcome.metrics_rows_dropped = metrics.rows_dropped();
-  return conclude(run.end(), std::move(outcome), fidelity_inputs(plan, run, facts), directory);
+  const bool links_saved = save_links(directory, plan, run);
+  return conclude(run.end(), std::move(outcome), fidelity_inputs(plan, run, facts), directory,
+                  links_saved);
 }
 
 }  // namespace cuscus::orchestrator

@@ -77,6 +77,7 @@ inline constexpr std::string_view kResolvedScenarioFile = "scenario.resolved.jso
 inline constexpr std::string_view kFidelityFile = "fidelity.json";
 inline constexpr std::string_view kSummaryFile = "summary.json";
 inline constexpr std::string_view kMetricsFile = "metrics.csv";
+inline constexpr std::string_view kLinksFile = "links.csv";
 inline constexpr std::string_view kFrameLogFile = "frames.csv";
 inline constexpr std::string_view kLogFolder = "logs";
 
