@@ -1,13 +1,11 @@
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include "common/posix/unique_fd.h"
 #include "netsim/app/frame_record.h"
+#include "netsim/app/log_writer.h"
 
 namespace cuscus::netsim {
 
@@ -16,29 +14,21 @@ class FrameLog {
  public:
   /// Takes over a descriptor open for writing and writes the header.
   FrameLog(posix::UniqueFd file, const AirParameters& parameters);
-  FrameLog(const FrameLog&) = delete;
-  FrameLog& operator=(const FrameLog&) = delete;
-  FrameLog(FrameLog&&) = delete;
-  FrameLog& operator=(FrameLog&&) = delete;
-  ~FrameLog();
 
   /// From one thread. A record that finds no room is counted and left out.
-  void add(const FrameRecord& record) noexcept;
+  void add(const FrameRecord& record) noexcept { writer_.add(record); }
 
   /// Writes what is left; nothing may be added any more. How many records the file lacks.
-  std::uint64_t finish();
+  std::uint64_t finish() { return writer_.finish(); }
 
  private:
-  void write_out(std::string& text);
-  void serve(const std::stop_token& stop);
+  struct Format {
+    void operator()(std::string& text, const FrameRecord& record) const {
+      append_frame_record(text, record);
+    }
+  };
 
-  posix::UniqueFd file_;
-  std::vector<FrameRecord> records_;  ///< A ring; indices count on.
-  std::atomic<std::uint64_t> added_{0};
-  std::atomic<std::uint64_t> written_{0};
-  std::atomic<std::uint64_t> left_out_{0};
-  bool broken_{false};  ///< The file took no more; the writer's.
-  std::jthread writer_;
+  LogWriter<FrameRecord, Format> writer_;
 };
 
 }  // namespace cuscus::netsim

@@ -13,6 +13,7 @@ struct LiveFrame {
   enum class Payload : std::uint8_t { kAwaited, kHere, kLost };
 
   std::uint32_t node{};
+  std::uint32_t serial{};  ///< Counts the frames of a run, from 1.
   std::uint32_t frame_bytes{};
   std::int64_t sent_ns{};
   Payload payload{Payload::kAwaited};
@@ -41,6 +42,7 @@ class FrameStore {
     }
     LiveFrame& frame = frames_[number];
     frame.node = node;
+    frame.serial = ++serial_;
     frame.frame_bytes = frame_bytes;
     frame.sent_ns = sent_ns;
     frame.payload = LiveFrame::Payload::kAwaited;
@@ -49,6 +51,11 @@ class FrameStore {
     frame.late.clear();
     frame.bytes.clear();
     return number;
+  }
+
+  /// Of no other frame of a run, unlike its number, which is the lower half of this.
+  [[nodiscard]] std::uint64_t id_of(std::uint32_t number) const {
+    return std::uint64_t{frames_[number].serial} << 32U | number;
   }
 
   [[nodiscard]] LiveFrame& operator[](std::uint32_t number) { return frames_[number]; }
@@ -65,6 +72,7 @@ class FrameStore {
  private:
   std::vector<LiveFrame> frames_;
   std::vector<std::uint32_t> free_;
+  std::uint32_t serial_{0};
 };
 
 }  // namespace cuscus::netsim

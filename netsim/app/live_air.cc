@@ -96,6 +96,10 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
     link_counts_.emplace(*radio_memory_);
     monitors_.add(*link_counts_);
   }
+  if (setup.reception_log) {
+    receptions_.emplace(std::move(setup.reception_log), setup.air, setup.names, positions);
+    monitors_.add(*receptions_);
+  }
   if (stamps_) {
     watch(wake_, stamps_->fd(), static_cast<std::uint32_t>(Wake::kStamps));
   } else {
@@ -120,13 +124,21 @@ void LiveAir::run(std::int64_t start_monotonic_ns, LiveOwner& owner) {
   publish(0, air_.node_count());
   publish_timing();
   cpu_s_ = posix::process_cpu_s();
+  close_logs();
+}
+
+void LiveAir::close_logs() {
   not_logged_ = log_ ? log_->finish() : 0;
-  if (not_logged_ > 0) {
-    spdlog::warn(
-        "frame log: {} frames are missing: the file could not be written fast enough, or "
-        "no more",
-        not_logged_);
-  }
+  receptions_not_logged_ = receptions_ ? receptions_->finish() : 0;
+  const auto warn = [](const char* log, std::uint64_t missing) {
+    if (missing > 0) {
+      spdlog::warn(
+          "{} log: {} records are missing: the file could not be written fast enough, or no more",
+          log, missing);
+    }
+  };
+  warn("frame", not_logged_);
+  warn("reception", receptions_not_logged_);
 }
 
 /// What the kernel sent before the run belongs to nobody. TAPs first: of a frame that is sent
@@ -243,7 +255,8 @@ void LiveAir::delivered(const Delivery& delivery) {
     link_counts_->delivered(delivery);
   }
   if (frame.payload == LiveFrame::Payload::kLost) {
-    lose_copy(frame.node, delivery.receiver);
+    lose_copy({.frame = number, .receiver = delivery.receiver, .due = delivery.time},
+              logs::Cause::kNeverCame);
     return;
   }
   ++frame.copies;
@@ -256,6 +269,9 @@ void LiveAir::finished(const FrameReport& report) {
   --ports_[frame.node].outstanding;
   if (link_counts_) {
     link_counts_->finished(report);
+  }
+  if (receptions_) {
+    receptions_->finished(report);
   }
   if (log_) {
     log_->add({.sent_ns = frame.sent_ns,
@@ -273,10 +289,14 @@ void LiveAir::finished(const FrameReport& report) {
 }
 
 /// A frame that was received does not get into the receiver's interface.
-void LiveAir::lose_copy(std::uint32_t sender, std::uint32_t receiver) {
-  ++ports_[receiver].lost_interface;
+void LiveAir::lose_copy(const DueCopy& copy, logs::Cause cause) {
+  const std::uint32_t sender = frames_[copy.frame].node;
+  ++ports_[copy.receiver].lost_interface;
   if (link_counts_) {
-    link_counts_->lost_at_interface(sender, receiver);
+    link_counts_->lost_at_interface(sender, copy.receiver);
+  }
+  if (receptions_) {
+    receptions_->copy_lost(frames_.id_of(copy.frame), sender, copy.receiver, copy.due, cause);
   }
 }
 
@@ -296,12 +316,16 @@ void LiveAir::write_one_copy() {
     return;
   }
   Port& port = ports_[copy.receiver];
-  if (again.payload == LiveFrame::Payload::kLost || port.tap.fd() < 0) {
-    lose_copy(again.node, copy.receiver);
+  if (again.payload == LiveFrame::Payload::kLost) {
+    lose_copy(copy, logs::Cause::kNeverCame);
+  } else if (port.tap.fd() < 0) {
+    lose_copy(copy, logs::Cause::kLinkDown);
   } else {
     release_lateness_.add(now_ns() - to_ns(copy.due));
-    if (too_late || !port.tap.write(again.bytes)) {
-      lose_copy(again.node, copy.receiver);
+    if (too_late) {
+      lose_copy(copy, logs::Cause::kLate);
+    } else if (!port.tap.write(again.bytes)) {
+      lose_copy(copy, logs::Cause::kLinkDown);
     }
   }
   --again.copies;
@@ -390,6 +414,7 @@ proto::RadioReport LiveAir::report() const {
   report.set_lost_before_air(before_air);
   report.set_unstamped(unstamped_);
   report.set_frames_not_logged(not_logged_);
+  report.set_receptions_not_logged(receptions_not_logged_);
   return report;
 }
 

@@ -13,6 +13,7 @@
 #include "netsim/app/frame_log.h"
 #include "netsim/app/frame_store.h"
 #include "netsim/app/link_counts.h"
+#include "netsim/app/reception_log.h"
 #include "netsim/app/stamp_matcher.h"
 #include "netsim/app/stamp_ring.h"
 #include "netsim/app/tap_port.h"
@@ -29,6 +30,8 @@ struct LiveSetup {
   std::unique_ptr<StampRing> stamps;    ///< None: frames are taken as sent when they are read.
   std::unique_ptr<FrameLog> log;        ///< None: no log.
   std::span<std::byte> radio_memory{};  ///< Empty: nothing is published.
+  posix::UniqueFd reception_log{};      ///< Empty: none.
+  std::vector<std::string> names{};     ///< Of the nodes, for the reception log.
 };
 
 /// Whoever runs a LiveAir.
@@ -97,7 +100,8 @@ class LiveAir final : private AirListener {
   void lost(std::span<const std::uint32_t> frames);
   void give_up_lost_frames(std::int64_t now);
   void write_one_copy();
-  void lose_copy(std::uint32_t sender, std::uint32_t receiver);
+  void lose_copy(const DueCopy& copy, logs::Cause cause);
+  void close_logs();
 
   void housekeep(LiveOwner& owner, std::int64_t now);
   void publish(std::uint32_t first, std::uint32_t count);
@@ -109,6 +113,7 @@ class LiveAir final : private AirListener {
   std::unique_ptr<FrameLog> log_;
   std::optional<shm::RadioMemoryWriter> radio_memory_;
   std::optional<LinkCounts> link_counts_;
+  std::optional<ReceptionLog> receptions_;
   AirMonitors monitors_;
   Air air_;
   posix::UniqueFd wake_;  ///< epoll: owner and stamps, or owner and TAPs.
@@ -135,6 +140,7 @@ class LiveAir final : private AirListener {
   statistics::Log2Histogram clamp_;
   std::uint64_t unstamped_{0};
   std::uint64_t not_logged_{0};
+  std::uint64_t receptions_not_logged_{0};
   std::string scheduler_;
   double cpu_s_{0.0};
 };

@@ -67,10 +67,12 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
   Port& port = ports_[live.node];
   if (++port.outstanding > air_.mac().queue_frames + kBeyondQueue) {
     ++port.refused;
-    finished({.id = frame,
+    finished({.id = frames_.id_of(frame),
               .sender = live.node,
               .destination = to,
               .priority = parsed->priority,
+              .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
+              .sent_at = sim_time(live.sent_ns),
               .outcome = SendOutcome::kQueueFull});
     return;
   }
@@ -78,7 +80,7 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
     clamp_.add(to_ns(air_.now()) - live.sent_ns);
   }
   air_.offer(live.node, sim_time(live.sent_ns),
-             {.id = frame,
+             {.id = frames_.id_of(frame),
               .destination = to,
               .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
               .priority = parsed->priority});
@@ -211,7 +213,7 @@ void LiveAir::lost(std::span<const std::uint32_t> frames) {
     --awaited_;
     ++ports_[live.node].before_air;
     for (const DueCopy& copy : live.late) {
-      lose_copy(live.node, copy.receiver);
+      lose_copy(copy, logs::Cause::kNeverCame);
       --live.copies;
     }
     live.late.clear();

@@ -94,6 +94,12 @@ netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfigurat
   if (auto log = session.take_if_given(Kind::KIND_FRAME_LOG)) {
     setup.log = std::make_unique<netsim::FrameLog>(std::move(*log), setup.air);
   }
+  if (auto log = session.take_if_given(Kind::KIND_RECEPTION_LOG)) {
+    setup.reception_log = std::move(*log);
+    for (const proto::RadioNode& node : configuration.nodes()) {
+      setup.names.push_back(node.name());
+    }
+  }
   return setup;
 }
 

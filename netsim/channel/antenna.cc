@@ -76,12 +76,18 @@ std::unique_ptr<const Antenna> make_antenna(const AntennaParameters& parameters)
                               "' is not known; allowed are 'isotropic', 'dipole', 'pattern'"};
 }
 
-Decibel gain_of_both(const Antenna& antenna, const AntennaPose& a, const AntennaPose& b) {
+EndGains gains_of_ends(const Antenna& antenna, const AntennaPose& a, const AntennaPose& b) {
   const Eigen::Vector3d p_AB_W = b.p_WB - a.p_WB;
   if (p_AB_W.isZero(0.0)) {
-    return {0.0};
+    return {};
   }
-  return antenna.gain(a.q_WB.conjugate() * p_AB_W) + antenna.gain(b.q_WB.conjugate() * -p_AB_W);
+  return {.at_a = antenna.gain(a.q_WB.conjugate() * p_AB_W),
+          .at_b = antenna.gain(b.q_WB.conjugate() * -p_AB_W)};
+}
+
+Decibel gain_of_both(const Antenna& antenna, const AntennaPose& a, const AntennaPose& b) {
+  const EndGains gains = gains_of_ends(antenna, a, b);
+  return gains.at_a + gains.at_b;
 }
 
 }  // namespace cuscus::netsim

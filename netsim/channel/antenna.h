@@ -71,8 +71,15 @@ struct AntennaPose {
   Eigen::Quaterniond q_WB{Eigen::Quaterniond::Identity()};
 };
 
-/// Sum of the gains at both ends of a link, each towards the other: the same in both directions.
-/// 0 dB where both are at one place, as there is no direction then.
+/// Gains at both ends of a link, each towards the other: 0 dB where both are at one place, as there
+/// is no direction then.
+struct EndGains {
+  Decibel at_a{};
+  Decibel at_b{};
+};
+[[nodiscard]] EndGains gains_of_ends(const Antenna& antenna, const AntennaPose& a,
+                                     const AntennaPose& b);
+/// Their sum: the same in both directions.
 [[nodiscard]] Decibel gain_of_both(const Antenna& antenna, const AntennaPose& a,
                                    const AntennaPose& b);
 

@@ -26,6 +26,8 @@ struct ObstacleTerms {
   /// What goes around the bodies: negative where that is more than what comes through, positive
   /// where bodies that the ray only grazes take some of it.
   Decibel diffraction{};
+
+  [[nodiscard]] Decibel sum() const { return outer_walls + inner_walls + diffraction; }
 };
 
 /// What comes through the bodies and what goes around them, added as powers. One body that the ray
