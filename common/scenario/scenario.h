@@ -340,7 +340,8 @@ struct GroundStation {
 inline constexpr std::string_view kGroundStationName = "gcs";
 
 struct Record {
-  bool frames{false};  ///< A line per frame on the air.
+  bool frames{false};      ///< A line per frame on the air.
+  bool receptions{false};  ///< How every frame came out at every node that it was meant for.
   Duration metrics_period{std::chrono::milliseconds{100}};
 };
 

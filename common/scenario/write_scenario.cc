@@ -307,6 +307,7 @@ Json to_json(const Scenario& scenario) {
             {"page", station.page_port ? Json{{"port", *station.page_port}} : Json("none")}}},
           {"record",
            {{"frames", scenario.record.frames},
+            {"receptions", scenario.record.receptions},
             {"metrics_period", text(scenario.record.metrics_period)}}}};
 }
 

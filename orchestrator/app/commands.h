@@ -38,6 +38,17 @@ int ps_command(bool json);
 int stop_command(const std::string& run_id);
 int exec_command(const std::string& run_id, const std::string& node,
                  const std::vector<std::string>& arguments);
+
+/// Which frames of a finished run are to be explained.
+struct WhyArguments {
+  std::filesystem::path run;  ///< Its directory.
+  std::string sender;
+  std::string receiver;
+  std::string at;               ///< SimTime, such as "12.3s".
+  std::string window{"100ms"};  ///< From then on.
+  bool csv{false};
+};
+int why_command(const WhyArguments& arguments);
 int clean_command();
 int doctor_command(std::size_t nodes);
 

@@ -211,6 +211,9 @@ void LiveRun::start_netsim() {
   if (settings_.frame_log) {
     given.push_back({Descriptors::KIND_FRAME_LOG, 0, settings_.frame_log.get()});
   }
+  if (settings_.reception_log) {
+    given.push_back({Descriptors::KIND_RECEPTION_LOG, 0, settings_.reception_log.get()});
+  }
   for (const auto& node : fleet_->nodes()) {
     given.push_back({Descriptors::KIND_TAP, node.network().index, node.tap_fd()});
   }

@@ -30,6 +30,7 @@ struct RunSettings {
   const RunDirectory& directory;   ///< For one log per process.
   posix::UniqueFd page_listener;   ///< Empty: no page.
   posix::UniqueFd frame_log;       ///< Empty: none is wanted.
+  posix::UniqueFd reception_log;   ///< Likewise.
 };
 
 /// How a flight ended.

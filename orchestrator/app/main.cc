@@ -40,6 +40,7 @@ struct CommandLine {
   CLI::App app{"Flies a fleet of UAVs and their radio network together on one machine.", "cuscus"};
   orchestrator::RunArguments run;
   orchestrator::ScenarioArguments check;
+  orchestrator::WhyArguments why;
   bool check_json{false};
   bool schema{false};
   bool ps_json{false};
@@ -69,10 +70,24 @@ struct CommandLine {
     exec_command->positionals_at_end();
     auto* const stop_command = app.add_subcommand("stop", "end a run; its results are kept");
     stop_command->add_option("RUN", run_id, "run id, when several are alive");
+    add_why();
     app.add_subcommand("clean", "remove what killed runs have left behind");
     auto* const doctor_command =
         app.add_subcommand("doctor", "what this machine can and cannot do");
     doctor_command->add_option("--nodes", doctor_nodes, "nodes to be flown");
+  }
+
+  void add_why() {
+    auto* const command =
+        app.add_subcommand("why", "what became of the frames from one node to another, and why");
+    command->add_option("RUN", why.run, "run directory, recorded with record.receptions")
+        ->required();
+    command->add_option("FROM", why.sender, "node that sent, such as uav3")->required();
+    command->add_option("TO", why.receiver, "node that they were meant for, such as uav7")
+        ->required();
+    command->add_option("--at", why.at, "time in the run, such as 12.3s")->required();
+    command->add_option("--for", why.window, "from then on")->capture_default_str();
+    command->add_flag("--csv", why.csv, "comma-separated");
   }
 
   /// What is wrong with the first argument, when it should have been a subcommand; else nothing.
@@ -108,6 +123,9 @@ struct CommandLine {
     }
     if (app.got_subcommand("stop")) {
       return orchestrator::stop_command(run_id);
+    }
+    if (app.got_subcommand("why")) {
+      return orchestrator::why_command(why);
     }
     if (app.got_subcommand("clean")) {
       return orchestrator::clean_command();

@@ -82,6 +82,11 @@ class Handover {
   std::optional<Owner> owner_;
 };
 
+/// A new file, if it is wanted.
+posix::UniqueFd file_if(bool wanted, const RunDirectory& directory, std::string_view name) {
+  return wanted ? directory.create_file(std::string{name}) : posix::UniqueFd{};
+}
+
 /// False when it could not be written, and why is said.
 bool save(const RunDirectory& directory, std::string_view name, const std::string& content) {
   try {
@@ -181,8 +186,8 @@ int run_command(const RunArguments& arguments) {
                .programs = programs,
                .directory = directory,
                .page_listener = std::move(page_listener),
-               .frame_log = plan.record_frames ? directory.create_file(std::string{kFrameLogFile})
-                                               : posix::UniqueFd{}}};
+               .frame_log = file_if(plan.record_frames, directory, kFrameLogFile),
+               .reception_log = file_if(plan.record_receptions, directory, kReceptionLogFile)}};
   run.on_nodes_built([&] {
     entry.publish(
         registered(plan, run_id, arguments.scenario.file, directory.path(), run.init_pids()));

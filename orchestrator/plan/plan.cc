@@ -118,6 +118,7 @@ class Planner {
     plan_.ipv6 = scenario_.network.ipv6;
     plan_.mtu_bytes = scenario_.network.mtu_bytes;
     plan_.record_frames = scenario_.record.frames;
+    plan_.record_receptions = scenario_.record.receptions;
     plan_.metrics_period = scenario_.record.metrics_period;
     if (scenario_.ground_station.enabled) {
       plan_.page_port = scenario_.ground_station.page_port;

@@ -93,6 +93,7 @@ struct Plan {
   std::optional<std::uint16_t> page_port;  ///< On 127.0.0.1, when there is a page.
   bool motion_capture_memory{};            ///< Some agent needs it.
   bool record_frames{};
+  bool record_receptions{};
   scenario::Duration metrics_period{};
   CapacityEstimate capacity;
 };

@@ -110,6 +110,10 @@ class Judge {
       fidelity_.notes.push_back(
           fmt::format("the frame log lacks {} frames", report.frames_not_logged()));
     }
+    if (report.receptions_not_logged() > 0) {
+      fidelity_.notes.push_back(
+          fmt::format("the reception log lacks {} records", report.receptions_not_logged()));
+    }
     scheduler("netsim", report.scheduler());
   }
 

@@ -27,7 +27,8 @@ Json json_of(const proto::RadioReport& report) {
           {"cpu_s", report.cpu_s()},
           {"lost_before_air", report.lost_before_air()},
           {"unstamped", report.unstamped()},
-          {"frames_not_logged", report.frames_not_logged()}};
+          {"frames_not_logged", report.frames_not_logged()},
+          {"receptions_not_logged", report.receptions_not_logged()}};
 }
 
 Json json_of(const proto::WorldReport& report) {

@@ -233,6 +233,16 @@ TEST_CASE("A frame log that lacks frames is noted") {
   CHECK(fidelity.notes == std::vector<std::string>{"the frame log lacks 3 frames"});
 }
 
+TEST_CASE("A reception log that lacks records is noted") {
+  FidelityInputs inputs = good_run();
+  inputs.radio->set_receptions_not_logged(2);
+
+  const Fidelity fidelity = judge(inputs);
+
+  CHECK(fidelity.verdict == Verdict::kValid);
+  CHECK(fidelity.notes == std::vector<std::string>{"the reception log lacks 2 records"});
+}
+
 TEST_CASE("Stamps taken on reading make a long ingress delay count") {
   FidelityInputs inputs = good_run();
   *inputs.radio->mutable_ingress_delay() = durations({{17, 11'900}, {22, 100}}, 8'000'000);

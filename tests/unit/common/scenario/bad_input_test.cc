@@ -171,7 +171,7 @@ const std::vector<BadInput> kTable{
     {R"({"ground_station": {"page": "8080"}})", "/ground_station/page", "allowed: none, or an object with port", true},
     {R"({"ground_station": {"position": ["0 m", "0 m", "0 km/h"]}})", "/ground_station/position/2", "has the unit \"km/h\"; allowed: a length", true},
     {R"({"record": {"metrics_period": "1 ms"}})", "/record/metrics_period", "allowed: 10 ms ... 60 s", false},
-    {R"({"record": {"videos": true}})", "/record/videos", "is not a known key; allowed: frames, metrics_period", true},
+    {R"({"record": {"videos": true}})", "/record/videos", "is not a known key; allowed: frames, receptions, metrics_period", true},
 };
 // clang-format on
 
