@@ -52,6 +52,7 @@ Observation MemoryObserver::observe() const {
         result.links.push_back({.sender = sender,
                                 .receiver = receiver,
                                 .received_dbm = reading->received_dbm,
+                                .rate_kbps = reading->rate_kbps,
                                 .heard = SimTime{std::chrono::milliseconds{reading->sim_time_ms}}});
       }
     }

@@ -26,6 +26,7 @@ void join_pairs(std::vector<Snapshot::Link>& links) {
     }
     if (way->a == last->a && way->b == last->b) {
       last->received_dbm = std::min(last->received_dbm, way->received_dbm);
+      last->rate_kbps = std::min(last->rate_kbps, way->rate_kbps);
       last->age = std::min(last->age, way->age);
       last->one_way = false;
     } else {
@@ -51,6 +52,7 @@ LinkPicture link_picture(const Observation& observation, SimTime now, std::size_
     pairs.push_back({.a = std::min(link.sender, link.receiver),
                      .b = std::max(link.sender, link.receiver),
                      .received_dbm = static_cast<double>(link.received_dbm),
+                     .rate_kbps = link.rate_kbps,
                      .age = age,
                      .one_way = !is_silent(observation, link.receiver)});
     if (link.receiver >= result.hears.size()) {

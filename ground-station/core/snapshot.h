@@ -29,7 +29,8 @@ struct Observation {
     std::uint32_t sender;
     std::uint32_t receiver;
     float received_dbm;
-    SimTime heard;  ///< When its latest frame was.
+    std::uint32_t rate_kbps;  ///< Of its latest frame.
+    SimTime heard;            ///< When that was.
   };
   struct World {
     std::uint64_t steps;
@@ -76,9 +77,10 @@ struct Snapshot {
   struct Link {
     std::uint32_t a;  ///< Below b.
     std::uint32_t b;
-    double received_dbm;     ///< Of the weaker way.
-    SimClock::duration age;  ///< Of the latest frame.
-    bool one_way;            ///< One did not hear the other, although that one has sent frames.
+    double received_dbm;      ///< Of the weaker way.
+    std::uint32_t rate_kbps;  ///< Of the latest frame, by the slower way.
+    SimClock::duration age;   ///< Of the latest frame.
+    bool one_way;             ///< One did not hear the other, although that one has sent frames.
   };
 
   std::string run_id;

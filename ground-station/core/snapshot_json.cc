@@ -9,7 +9,8 @@ namespace {
 
 constexpr int kMillimetres = 3;     // decimals of metres, seconds, radians
 constexpr int kPerTenThousand = 4;  // of ratios
-constexpr int kTenths = 1;          // of microseconds and decibels
+constexpr int kTenths = 1;          // of microseconds, decibels and Mb/s
+constexpr double kMegabit_kbit = 1e3;
 constexpr double kMicrosecond_ns = 1e3;
 
 std::string_view name_of(RunState state) {
@@ -183,6 +184,7 @@ void write_links(JsonWriter& json, const Snapshot& snapshot) {
     json.number(link.received_dbm, kTenths);
     json.number(std::max(0.0, to_seconds(link.age)), kMillimetres);
     json.boolean(link.one_way);
+    json.number(static_cast<double>(link.rate_kbps) / kMegabit_kbit, kTenths);
     json.end_array();
   }
   json.end_array();
@@ -193,7 +195,7 @@ void write_links(JsonWriter& json, const Snapshot& snapshot) {
 
 std::string to_json(const Snapshot& snapshot) {
   constexpr std::size_t kNode_bytes = 1100;
-  constexpr std::size_t kLink_bytes = 30;
+  constexpr std::size_t kLink_bytes = 35;
   JsonWriter json;
   json.reserve(kNode_bytes * (snapshot.nodes.size() + 1) + kLink_bytes * snapshot.links.size());
   json.begin_object();

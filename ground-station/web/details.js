@@ -7,7 +7,19 @@ function causes(counts) {
   return some.length ? some.map(([cause, count]) => `${words(cause)} ${number(count)}`).join(' · ') : 'none';
 }
 
-export function factsOf(node) {
+const MOST_LINKS = 8;
+
+/** The strongest links of a node: whom to, how strong, at what rate. */
+function linksOf(node, snapshot) {
+  const names = new Map(snapshot.nodes.map((other) => [other.node, other.name]));
+  const own = snapshot.links.filter(([a, b]) => a === node.node || b === node.node);
+  const shown = own.slice(0, MOST_LINKS).map(([a, b, dbm, , , mbps]) =>
+    `${names.get(a === node.node ? b : a)} ${number(dbm, 1)} dBm ${number(mbps, mbps % 1 ? 1 : 0)} Mb/s`);
+  const more = own.length - shown.length;
+  return shown.length ? shown.join(' · ') + (more > 0 ? ` · ${more} more` : '') : 'none';
+}
+
+export function factsOf(node, snapshot) {
   const { telemetry, truth, radio } = node;
   const off = telemetry && truth ? Math.hypot(...truth.p_m.map((c, i) => c - telemetry.p_m[i])) : null;
   const facts = [['Truth, ENU m', position(truth?.p_m)]];
@@ -25,6 +37,7 @@ export function factsOf(node) {
     ['Offered', number(radio?.offered)],
     ['Retries', number(radio?.retries)],
     ['Acknowledged', number(radio?.acknowledged)],
+    ['Links: level of the weaker way, rate of the slower', linksOf(node, snapshot), 'wide'],
     ['Given up, by cause', causes(radio?.dropped), 'wide'],
     ['Receptions lost, by cause', causes(radio?.lost), 'wide'],
   ];

@@ -128,8 +128,8 @@ export class FleetModel {
     });
   }
 
-  /** The linked pairs: [{a, b, dbm (of the weaker way), age, oneWay}]. */
+  /** The linked pairs: [{a, b, dbm (of the weaker way), age, oneWay, mbps (of the slower way)}]. */
   links() {
-    return (this.snapshot?.links ?? []).map(([a, b, dbm, age, oneWay]) => ({ a, b, dbm, age, oneWay }));
+    return (this.snapshot?.links ?? []).map(([a, b, dbm, age, oneWay, mbps]) => ({ a, b, dbm, age, oneWay, mbps }));
   }
 }

@@ -89,6 +89,6 @@ export class FleetTable {
 
   #showDetails(snapshot) {
     const node = snapshot.nodes.find((candidate) => candidate.node === this.selected);
-    showFacts(this.details, node ? node.name : 'Whole fleet', node ? factsOf(node) : factsOfAll(snapshot));
+    showFacts(this.details, node ? node.name : 'Whole fleet', node ? factsOf(node, snapshot) : factsOfAll(snapshot));
   }
 }

@@ -77,6 +77,7 @@ async function checkSnapshot(url) {
   assert.equal(station.hears, toStation.length);
   assert.ok(station.hears > 0);
   assert.ok(toStation.every(([, , , , oneWay]) => !oneWay), 'a station that is silent is not out of earshot');
+  assert.ok(snapshot.links.every(([, , , , , mbps]) => mbps === 6), 'the rate of the latest frame');
   const levels = snapshot.links.map(([, , dbm]) => dbm);
   assert.deepEqual(levels, [...levels].sort((a, b) => b - a), 'strongest first');
 }
@@ -94,6 +95,7 @@ async function checkControls(page) {
   await page.waitForFunction(() => Number(document.getElementById('plan').dataset.links) > 0);
   await page.click('#fleet tbody tr:nth-child(4) button');
   await page.locator('#details h2', { hasText: 'uav3' }).waitFor();
+  await page.locator('#details dd', { hasText: / dBm 6 Mb\/s/ }).waitFor();
 }
 
 /** The ground station stands still with the connection open: the page must not call that live. */

@@ -16,15 +16,36 @@ Observation heard(std::vector<Observation::Link> links) {
 
 TEST_CASE("links are those heard within the last second, one per pair, strongest first") {
   const Observation observation = heard({
-      {.sender = 0, .receiver = 1, .received_dbm = -70.0F, .heard = after_ms(4999)},  // too old
-      {.sender = 1, .receiver = 0, .received_dbm = -80.0F, .heard = after_ms(5000)},
-      {.sender = 2, .receiver = 0, .received_dbm = -60.0F, .heard = after_ms(6001)},  // just read
-      {.sender = 0, .receiver = 2, .received_dbm = -62.0F, .heard = after_ms(5900)},
+      {.sender = 0,
+       .receiver = 1,
+       .received_dbm = -70.0F,
+       .rate_kbps = 6'000,
+       .heard = after_ms(4999)},  // too old
+      {.sender = 1,
+       .receiver = 0,
+       .received_dbm = -80.0F,
+       .rate_kbps = 6'000,
+       .heard = after_ms(5000)},
+      {.sender = 2,
+       .receiver = 0,
+       .received_dbm = -60.0F,
+       .rate_kbps = 54'000,
+       .heard = after_ms(6001)},  // just read
+      {.sender = 0,
+       .receiver = 2,
+       .received_dbm = -62.0F,
+       .rate_kbps = 6'000,
+       .heard = after_ms(5900)},
       {.sender = 3,
        .receiver = 2,
        .received_dbm = -std::numeric_limits<float>::infinity(),
+       .rate_kbps = 6'000,
        .heard = after_ms(6000)},
-      {.sender = 1, .receiver = 2, .received_dbm = -65.0F, .heard = after_ms(5500)},
+      {.sender = 1,
+       .receiver = 2,
+       .received_dbm = -65.0F,
+       .rate_kbps = 6'000,
+       .heard = after_ms(5500)},
   });
 
   const LinkPicture all = link_picture(observation, after_ms(6000), 10);
@@ -34,6 +55,7 @@ TEST_CASE("links are those heard within the last second, one per pair, strongest
   CHECK(all.strongest[0].a == 0);
   CHECK(all.strongest[0].b == 2);
   CHECK(all.strongest[0].received_dbm == -62.0);  // the weaker way
+  CHECK(all.strongest[0].rate_kbps == 6'000);     // the slower way
   CHECK(all.strongest[0].age == SimClock::duration{0});
   CHECK_FALSE(all.strongest[0].one_way);
   CHECK(all.strongest[1].a == 1);
@@ -53,6 +75,7 @@ TEST_CASE("pairs beyond the most are left out whole, and what a node hears is no
         links.push_back({.sender = sender,
                          .receiver = receiver,
                          .received_dbm = level_dbm,
+                         .rate_kbps = 6'000,
                          .heard = after_ms(1000)});
       }
     }
@@ -68,8 +91,16 @@ TEST_CASE("pairs beyond the most are left out whole, and what a node hears is no
 
 TEST_CASE("a link to a node that never had anything to send is not called one-way") {
   Observation observation = heard({
-      {.sender = 0, .receiver = 1, .received_dbm = -70.0F, .heard = after_ms(1000)},
-      {.sender = 0, .receiver = 2, .received_dbm = -75.0F, .heard = after_ms(1000)},
+      {.sender = 0,
+       .receiver = 1,
+       .received_dbm = -70.0F,
+       .rate_kbps = 6'000,
+       .heard = after_ms(1000)},
+      {.sender = 0,
+       .receiver = 2,
+       .received_dbm = -75.0F,
+       .rate_kbps = 6'000,
+       .heard = after_ms(1000)},
   });
   observation.tallies.resize(3, shm::RadioTally{});
   observation.tallies[2]->offered = 1;

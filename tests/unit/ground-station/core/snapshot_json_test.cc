@@ -88,6 +88,7 @@ Snapshot example() {
   snapshot.links = {{.a = 0,
                      .b = 1,
                      .received_dbm = -57.25,
+                     .rate_kbps = 5'500,
                      .age = std::chrono::milliseconds{20},
                      .one_way = true}};
   return snapshot;
@@ -116,7 +117,7 @@ TEST_CASE("a snapshot in JSON says what it held") {
   CHECK(uav["truth"].is_null());
   CHECK(uav["radio"]["lost"]["collision"] == 5);
   CHECK(document["nodes"][1]["telemetry"].is_null());
-  CHECK(document["links"] == json::parse("[[0, 1, -57.2, 0.02, true]]"));
+  CHECK(document["links"] == json::parse("[[0, 1, -57.2, 0.02, true, 5.5]]"));
 }
 
 TEST_CASE("a picture of an empty run is JSON as well") {
