@@ -247,6 +247,20 @@ void check_tdma(const Scenario& scenario, Problems& problems) {
   }
 }
 
+void check_captures(const Scenario& scenario, Problems& problems) {
+  const std::set<std::string> names = node_names(scenario);
+  const std::vector<std::string>& captured = scenario.record.captures.nodes;
+  for (std::size_t i = 0; i < captured.size(); ++i) {
+    if (!names.contains(captured[i])) {
+      const std::string near = nearest(captured[i], {names.begin(), names.end()});
+      problems.add("/record/captures/" + std::to_string(i),
+                   '"' + captured[i] + "\" is no node; " +
+                       (near.empty() ? "" : "did you mean \"" + near + "\"? ") +
+                       "allowed: names of nodes, such as \"" + *names.begin() + '"');
+    }
+  }
+}
+
 /// Fills the placeholders in as the plan will, with addresses that only need to exist.
 void check_placeholders(const Scenario& scenario, Problems& problems) {
   const std::set<std::string> names = node_names(scenario);
@@ -293,6 +307,7 @@ void check_whole(const Scenario& scenario, Problems& problems) {
   check_standing(scenario, problems);
   check_placeholders(scenario, problems);
   check_tdma(scenario, problems);
+  check_captures(scenario, problems);
 }
 
 }  // namespace cuscus::scenario

@@ -68,12 +68,7 @@ Scenario read_document(const json& document, const std::filesystem::path& folder
   scenario.world = read_world(reader.child("world"), problems);
   scenario.fleet = read_fleet(reader.child("fleet"), folder, problems);
   scenario.ground_station = read_ground_station(reader.child("ground_station"), problems);
-  ObjectReader record{reader.child("record"), "/record", problems};
-  scenario.record.frames = record.boolean("frames", scenario.record.frames);
-  scenario.record.receptions = record.boolean("receptions", scenario.record.receptions);
-  scenario.record.metrics_period =
-      record.duration("metrics_period", scenario.record.metrics_period, "10 ms", "60 s");
-  record.finish();
+  scenario.record = read_record(reader.child("record"), problems);
   reader.finish();
   return scenario;
 }

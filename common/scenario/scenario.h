@@ -339,9 +339,18 @@ struct GroundStation {
 /// Name of the ground station's node.
 inline constexpr std::string_view kGroundStationName = "gcs";
 
+/// Of what radios send and receive, a file per node.
+struct Captures {
+  bool everyone{false};
+  std::vector<std::string> nodes;                  ///< Unless it is everyone.
+  bool failed_receptions{false};                   ///< Also those that failed by their FCS.
+  std::optional<std::uint32_t> snap_length_bytes;  ///< Of a packet; nothing: all of it.
+};
+
 struct Record {
   bool frames{false};      ///< A line per frame on the air.
   bool receptions{false};  ///< How every frame came out at every node that it was meant for.
+  Captures captures;
   Duration metrics_period{std::chrono::milliseconds{100}};
 };
 

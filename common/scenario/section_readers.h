@@ -31,6 +31,7 @@ namespace cuscus::scenario {
 [[nodiscard]] Network read_network(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] World read_world(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] GroundStation read_ground_station(const nlohmann::json* value, Problems& problems);
+[[nodiscard]] Record read_record(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] std::vector<Group> read_fleet(const nlohmann::json* value,
                                             const std::filesystem::path& folder,
                                             Problems& problems);

@@ -284,6 +284,7 @@ Json to_json(const Scenario& scenario) {
   }
   const Network& network = scenario.network;
   const GroundStation& station = scenario.ground_station;
+  const Captures& captures = scenario.record.captures;
   return {{"name", scenario.name},
           {"description", scenario.description},
           {"seed", scenario.seed},
@@ -308,6 +309,10 @@ Json to_json(const Scenario& scenario) {
           {"record",
            {{"frames", scenario.record.frames},
             {"receptions", scenario.record.receptions},
+            {"captures", captures.nodes.empty() ? Json(captures.everyone) : Json(captures.nodes)},
+            {"failed_receptions", captures.failed_receptions},
+            {"snap_length",
+             captures.snap_length_bytes ? Json(*captures.snap_length_bytes) : Json("none")},
             {"metrics_period", text(scenario.record.metrics_period)}}}};
 }
 

@@ -19,11 +19,12 @@ struct LiveFrame {
   Payload payload{Payload::kAwaited};
   bool air_done{false};       ///< The air needs it no more.
   std::uint32_t copies{0};    ///< Due and not written yet.
+  std::uint32_t records{0};   ///< PPDUs of it that a PpduRecorder holds back.
   std::vector<DueCopy> late;  ///< Due while the payload is still awaited.
   std::vector<std::uint8_t> bytes;
 
   [[nodiscard]] bool over() const {
-    return air_done && copies == 0 && payload != Payload::kAwaited;
+    return air_done && copies == 0 && records == 0 && payload != Payload::kAwaited;
   }
 };
 
@@ -48,6 +49,7 @@ class FrameStore {
     frame.payload = LiveFrame::Payload::kAwaited;
     frame.air_done = false;
     frame.copies = 0;
+    frame.records = 0;
     frame.late.clear();
     frame.bytes.clear();
     return number;

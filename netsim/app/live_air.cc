@@ -96,6 +96,10 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
     link_counts_.emplace(*radio_memory_);
     monitors_.add(*link_counts_);
   }
+  if (setup.captures) {
+    recorder_.emplace(frames_, std::move(setup.captures));
+    monitors_.add(*recorder_);
+  }
   if (setup.reception_log) {
     receptions_.emplace(std::move(setup.reception_log), setup.air, setup.names, positions);
     monitors_.add(*receptions_);
@@ -111,6 +115,9 @@ std::int64_t LiveAir::now_ns() const { return posix::monotonic_now_ns() - start_
 
 void LiveAir::run(std::int64_t start_monotonic_ns, LiveOwner& owner) {
   start_ns_ = start_monotonic_ns;
+  if (recorder_) {
+    recorder_->captures()->start(posix::realtime_now_ns() - now_ns());
+  }
   watch(wake_, owner.fd(), static_cast<std::uint32_t>(Wake::kOwner));
   posix::sleep_until_monotonic(start_ns_ - kFlush_ns);
   forget_the_past();
@@ -132,13 +139,15 @@ void LiveAir::close_logs() {
   receptions_not_logged_ = receptions_ ? receptions_->finish() : 0;
   const auto warn = [](const char* log, std::uint64_t missing) {
     if (missing > 0) {
-      spdlog::warn(
-          "{} log: {} records are missing: the file could not be written fast enough, or no more",
-          log, missing);
+      spdlog::warn("{}: {} records are missing: written not fast enough, or no more", log, missing);
     }
   };
-  warn("frame", not_logged_);
-  warn("reception", receptions_not_logged_);
+  warn("frame log", not_logged_);
+  warn("reception log", receptions_not_logged_);
+  if (recorder_) {
+    recorder_->finish();
+    warn("captures", recorder_->captures()->packets_left_out());
+  }
 }
 
 /// What the kernel sent before the run belongs to nobody. TAPs first: of a frame that is sent
@@ -157,6 +166,9 @@ void LiveAir::forget_the_past() {
 
 void LiveAir::step(LiveOwner& owner) {
   run_due_events();
+  if (recorder_) {
+    recorder_->hand_over();
+  }
   if (!copies_.empty()) {
     write_one_copy();
   }
@@ -415,6 +427,10 @@ proto::RadioReport LiveAir::report() const {
   report.set_unstamped(unstamped_);
   report.set_frames_not_logged(not_logged_);
   report.set_receptions_not_logged(receptions_not_logged_);
+  if (recorder_) {
+    report.set_packets_captured(recorder_->captures()->packets());
+    report.set_packets_not_captured(recorder_->captures()->packets_left_out());
+  }
   return report;
 }
 

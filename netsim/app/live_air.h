@@ -8,11 +8,13 @@
 
 #include "common/statistics/log2_histogram.h"
 #include "netsim/air/air.h"
+#include "netsim/app/capture_files.h"
 #include "netsim/app/due_copies.h"
 #include "netsim/app/ethernet.h"
 #include "netsim/app/frame_log.h"
 #include "netsim/app/frame_store.h"
 #include "netsim/app/link_counts.h"
+#include "netsim/app/ppdu_recorder.h"
 #include "netsim/app/reception_log.h"
 #include "netsim/app/stamp_matcher.h"
 #include "netsim/app/stamp_ring.h"
@@ -26,12 +28,13 @@ namespace cuscus::netsim {
 struct LiveSetup {
   AirParameters air;
   std::vector<std::uint64_t> addresses;
-  std::vector<posix::UniqueFd> taps;    ///< An empty one: a node without interface.
-  std::unique_ptr<StampRing> stamps;    ///< None: frames are taken as sent when they are read.
-  std::unique_ptr<FrameLog> log;        ///< None: no log.
-  std::span<std::byte> radio_memory{};  ///< Empty: nothing is published.
-  posix::UniqueFd reception_log{};      ///< Empty: none.
-  std::vector<std::string> names{};     ///< Of the nodes, for the reception log.
+  std::vector<posix::UniqueFd> taps;       ///< An empty one: a node without interface.
+  std::unique_ptr<StampRing> stamps;       ///< None: frames are taken as sent when they are read.
+  std::unique_ptr<FrameLog> log;           ///< None: no log.
+  std::unique_ptr<CaptureFiles> captures;  ///< None: no captures.
+  std::span<std::byte> radio_memory{};     ///< Empty: nothing is published.
+  posix::UniqueFd reception_log{};         ///< Empty: none.
+  std::vector<std::string> names{};        ///< Of the nodes, for the reception log.
 };
 
 /// Whoever runs a LiveAir.
@@ -47,9 +50,9 @@ class LiveOwner {
 
 /// The air between real interfaces: see docs/adr/0003-ingress-and-release.md.
 ///
-/// One thread does everything but the frame log. Frames enter the simulation at the time at which
-/// they were sent; no event runs before its time; copies are written one at a time, the ring of
-/// send stamps being drained and due events run in between.
+/// One thread does everything but writing the frame log and captures. Frames enter the simulation
+/// at the time at which they were sent; no event runs before its time; copies are written one at a
+/// time, the ring of send stamps being drained and due events run in between.
 class LiveAir final : private AirListener {
  public:
   /// @throws std::invalid_argument, std::system_error.
@@ -112,8 +115,10 @@ class LiveAir final : private AirListener {
   std::unique_ptr<StampRing> stamps_;
   std::unique_ptr<FrameLog> log_;
   std::optional<shm::RadioMemoryWriter> radio_memory_;
+  FrameStore frames_;
   std::optional<LinkCounts> link_counts_;
   std::optional<ReceptionLog> receptions_;
+  std::optional<PpduRecorder> recorder_;  ///< When there are captures.
   AirMonitors monitors_;
   Air air_;
   posix::UniqueFd wake_;  ///< epoll: owner and stamps, or owner and TAPs.
@@ -121,7 +126,6 @@ class LiveAir final : private AirListener {
 
   std::int64_t start_ns_{0};
   bool stop_{false};
-  FrameStore frames_;
   DueCopies copies_;
   std::uint64_t awaited_{0};  ///< Frames whose payload has not been read.
   std::uint32_t held_{0};

@@ -62,6 +62,26 @@ struct Memories {
   MemoryMapping radio;
 };
 
+/// Null when no node is captured.
+std::unique_ptr<netsim::CaptureFiles> take_captures(ChildSession& session,
+                                                    const proto::RadioConfiguration& configuration,
+                                                    const netsim::LiveSetup& setup) {
+  netsim::CaptureSetup captures{.snap_length = configuration.capture_snap_length(),
+                                .failed = configuration.capture_failed()};
+  bool any = false;
+  for (const proto::RadioNode& node : configuration.nodes()) {
+    auto file = session.take_if_given(proto::Descriptors::KIND_CAPTURE, node.node());
+    any = any || file;
+    captures.files.push_back(file ? std::move(*file) : posix::UniqueFd{});
+    captures.names.push_back(node.name());
+  }
+  if (!any) {
+    return nullptr;
+  }
+  return std::make_unique<netsim::CaptureFiles>(std::move(captures),
+                                                netsim::PpduEncoder{setup.air, setup.addresses});
+}
+
 netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfiguration& configuration,
                              Memories& memories) {
   using Kind = proto::Descriptors;
@@ -100,6 +120,7 @@ netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfigurat
       setup.names.push_back(node.name());
     }
   }
+  setup.captures = take_captures(session, configuration, setup);
   return setup;
 }
 

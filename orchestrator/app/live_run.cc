@@ -214,6 +214,9 @@ void LiveRun::start_netsim() {
   if (settings_.reception_log) {
     given.push_back({Descriptors::KIND_RECEPTION_LOG, 0, settings_.reception_log.get()});
   }
+  for (const auto& [node, file] : settings_.captures) {
+    given.push_back({Descriptors::KIND_CAPTURE, node, file.get()});
+  }
   for (const auto& node : fleet_->nodes()) {
     given.push_back({Descriptors::KIND_TAP, node.network().index, node.tap_fd()});
   }
@@ -223,6 +226,7 @@ void LiveRun::start_netsim() {
   await([] { return "netsim to be ready"; }, kReadyLimit,
         [&] { return netsim_->component().is_ready(); });
   memories_.netsim_has_mapped();
+  settings_.captures.clear();
 }
 
 void LiveRun::start_programs() {

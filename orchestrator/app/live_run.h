@@ -5,6 +5,7 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,11 +27,12 @@ namespace cuscus::orchestrator {
 struct RunSettings {
   std::string run_id;
   node::Rights rights{};
-  std::filesystem::path programs;  ///< Folder of our own executables.
-  const RunDirectory& directory;   ///< For one log per process.
-  posix::UniqueFd page_listener;   ///< Empty: no page.
-  posix::UniqueFd frame_log;       ///< Empty: none is wanted.
-  posix::UniqueFd reception_log;   ///< Likewise.
+  std::filesystem::path programs;                     ///< Folder of our own executables.
+  const RunDirectory& directory;                      ///< For one log per process.
+  posix::UniqueFd page_listener;                      ///< Empty: no page.
+  posix::UniqueFd frame_log;                          ///< Empty: none is wanted.
+  posix::UniqueFd reception_log;                      ///< Likewise.
+  std::map<std::uint32_t, posix::UniqueFd> captures;  ///< Files, by node.
 };
 
 /// How a flight ended.

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -35,6 +36,20 @@ RunDirectory create_run_directory(const fs::path& path, std::optional<Owner> own
   } catch (const std::system_error& error) {
     throw UsageError{error.what()};
   }
+}
+
+/// "captures/uav3.pcapng" of every node that is to be captured.
+std::map<std::uint32_t, posix::UniqueFd> create_captures(const Plan& plan,
+                                                         const RunDirectory& directory) {
+  std::map<std::uint32_t, posix::UniqueFd> files;
+  if (!plan.captured_nodes.empty()) {
+    directory.create_folder(std::string{kCaptureFolder});
+  }
+  for (const std::uint32_t node : plan.captured_nodes) {
+    files.emplace(node, directory.create_file(
+                            fmt::format("{}/{}.pcapng", kCaptureFolder, plan.nodes[node].name)));
+  }
+  return files;
 }
 
 RegisteredRun registered(const Plan& plan, const std::string& run_id, const fs::path& scenario,
@@ -187,7 +202,8 @@ int run_command(const RunArguments& arguments) {
                .directory = directory,
                .page_listener = std::move(page_listener),
                .frame_log = file_if(plan.record_frames, directory, kFrameLogFile),
-               .reception_log = file_if(plan.record_receptions, directory, kReceptionLogFile)}};
+               .reception_log = file_if(plan.record_receptions, directory, kReceptionLogFile),
+               .captures = create_captures(plan, directory)}};
   run.on_nodes_built([&] {
     entry.publish(
         registered(plan, run_id, arguments.scenario.file, directory.path(), run.init_pids()));

@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <string_view>
@@ -342,6 +343,19 @@ class Planner {
       entry.set_antenna_gain_db(from.antenna_gain.value);
     }
     plan_slots();
+    plan_captures();
+  }
+
+  void plan_captures() {
+    const scenario::Captures& captures = scenario_.record.captures;
+    for (const NodePlan& node : plan_.nodes) {
+      if (captures.everyone ||
+          std::ranges::find(captures.nodes, node.name) != captures.nodes.end()) {
+        plan_.captured_nodes.push_back(node.index);
+      }
+    }
+    plan_.radio.set_capture_snap_length(captures.snap_length_bytes.value_or(0));
+    plan_.radio.set_capture_failed(captures.failed_receptions);
   }
 
   void plan_slots() {

@@ -94,6 +94,7 @@ struct Plan {
   bool motion_capture_memory{};            ///< Some agent needs it.
   bool record_frames{};
   bool record_receptions{};
+  std::vector<std::uint32_t> captured_nodes;
   scenario::Duration metrics_period{};
   CapacityEstimate capacity;
 };

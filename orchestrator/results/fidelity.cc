@@ -114,6 +114,10 @@ class Judge {
       fidelity_.notes.push_back(
           fmt::format("the reception log lacks {} records", report.receptions_not_logged()));
     }
+    if (report.packets_not_captured() > 0) {
+      fidelity_.notes.push_back(
+          fmt::format("the captures lack {} packets", report.packets_not_captured()));
+    }
     scheduler("netsim", report.scheduler());
   }
 

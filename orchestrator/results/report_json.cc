@@ -28,7 +28,9 @@ Json json_of(const proto::RadioReport& report) {
           {"lost_before_air", report.lost_before_air()},
           {"unstamped", report.unstamped()},
           {"frames_not_logged", report.frames_not_logged()},
-          {"receptions_not_logged", report.receptions_not_logged()}};
+          {"receptions_not_logged", report.receptions_not_logged()},
+          {"packets_captured", report.packets_captured()},
+          {"packets_not_captured", report.packets_not_captured()}};
 }
 
 Json json_of(const proto::WorldReport& report) {

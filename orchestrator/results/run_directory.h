@@ -80,6 +80,7 @@ inline constexpr std::string_view kMetricsFile = "metrics.csv";
 inline constexpr std::string_view kLinksFile = "links.csv";
 inline constexpr std::string_view kFrameLogFile = "frames.csv";
 inline constexpr std::string_view kReceptionLogFile = "receptions.bin";
+inline constexpr std::string_view kCaptureFolder = "captures";
 inline constexpr std::string_view kLogFolder = "logs";
 
 }  // namespace cuscus::orchestrator

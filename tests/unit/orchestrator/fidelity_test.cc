@@ -243,6 +243,16 @@ TEST_CASE("A reception log that lacks records is noted") {
   CHECK(fidelity.notes == std::vector<std::string>{"the reception log lacks 2 records"});
 }
 
+TEST_CASE("Captures that lack packets are noted") {
+  FidelityInputs inputs = good_run();
+  inputs.radio->set_packets_not_captured(12);
+
+  const Fidelity fidelity = judge(inputs);
+
+  CHECK(fidelity.verdict == Verdict::kValid);
+  CHECK(fidelity.notes == std::vector<std::string>{"the captures lack 12 packets"});
+}
+
 TEST_CASE("Stamps taken on reading make a long ingress delay count") {
   FidelityInputs inputs = good_run();
   *inputs.radio->mutable_ingress_delay() = durations({{17, 11'900}, {22, 100}}, 8'000'000);

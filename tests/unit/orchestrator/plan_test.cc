@@ -189,6 +189,21 @@ TEST_CASE("Each group is a formation of its own") {
   CHECK_FALSE(plan.nodes.at(0).sees_motion_capture);
 }
 
+TEST_CASE("Captures are of everybody, of those named, or of nobody") {
+  const auto captured = [](const std::string& record) {
+    return plan_of(R"({"name": "t", "fleet": [{"count": 2}], "record": )" + record + "}")
+        .captured_nodes;
+  };
+  CHECK(captured(R"({})").empty());
+  CHECK(captured(R"({"captures": true})") == std::vector<std::uint32_t>{0, 1, 2});
+  CHECK(captured(R"({"captures": ["gcs", "uav1"]})") == std::vector<std::uint32_t>{1, 2});
+
+  const Plan plan = plan_of(R"({"name": "t", "fleet": [{}],
+      "record": {"failed_receptions": true, "snap_length": 96}})");
+  CHECK(plan.radio.capture_failed());
+  CHECK(plan.radio.capture_snap_length() == 96);
+}
+
 TEST_CASE("Without the wish for real time nobody asks for it") {
   const Plan plan = plan_of(R"({"name": "t", "realtime": false, "fleet": [{}]})");
 

@@ -171,7 +171,12 @@ const std::vector<BadInput> kTable{
     {R"({"ground_station": {"page": "8080"}})", "/ground_station/page", "allowed: none, or an object with port", true},
     {R"({"ground_station": {"position": ["0 m", "0 m", "0 km/h"]}})", "/ground_station/position/2", "has the unit \"km/h\"; allowed: a length", true},
     {R"({"record": {"metrics_period": "1 ms"}})", "/record/metrics_period", "allowed: 10 ms ... 60 s", false},
-    {R"({"record": {"videos": true}})", "/record/videos", "is not a known key; allowed: frames, receptions, metrics_period", true},
+    {R"({"record": {"videos": true}})", "/record/videos", "is not a known key; allowed: frames, receptions, captures, failed_receptions, snap_length, metrics_period", true},
+    {R"({"record": {"captures": "uav0"}})", "/record/captures", "\"uav0\"; allowed: true, false, or an array of 1 ... 1000 node names", true},
+    {R"({"record": {"captures": []}})", "/record/captures", "allowed: true, false, or an array of 1 ... 1000 node names", true},
+    {R"({"record": {"captures": ["uav0", "uva1"]}, "fleet": [{"count": 2}]})", "/record/captures/1", "\"uva1\" is no node; did you mean \"uav1\"? allowed: names of nodes, such as \"gcs\"", false},
+    {R"({"record": {"snap_length": 32}})", "/record/snap_length", "allowed: a whole number 64 ... 65535", true},
+    {R"({"record": {"snap_length": "all"}})", "/record/snap_length", "\"all\"; allowed: none, or a whole number of bytes 64 ... 65535", true},
 };
 // clang-format on
 

@@ -94,7 +94,9 @@ TEST_CASE("The scenario written out in full is the same scenario") {
         {"name": "b", "vehicle": {"model": "fixed"}, "command": ["./x/run", "{{}}", "{name}"],
          "environment": {"A": "{ip}"}, "capabilities": ["cap_net_raw"], "on_exit": "fail",
          "start": {"layout": "list", "positions": [["1 m", "2 m", "30 cm"]]}}],
-      "ground_station": {"page": "none"}, "record": {"frames": true, "receptions": true}})";
+      "ground_station": {"page": "none"},
+      "record": {"frames": true, "receptions": true, "captures": ["b0", "a2"],
+                 "failed_receptions": true, "snap_length": 128}})";
   std::vector<Scenario> scenarios{parse(rich)};
   for (
       const char* const radio :
