@@ -70,8 +70,8 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
     finished({.id = frames_.id_of(frame),
               .sender = live.node,
               .destination = to,
-              .priority = parsed->priority,
               .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
+              .priority = parsed->priority,
               .sent_at = sim_time(live.sent_ns),
               .outcome = SendOutcome::kQueueFull});
     return;

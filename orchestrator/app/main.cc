@@ -78,16 +78,16 @@ struct CommandLine {
   }
 
   void add_why() {
-    auto* const command =
+    auto* const why_command =
         app.add_subcommand("why", "what became of the frames from one node to another, and why");
-    command->add_option("RUN", why.run, "run directory, recorded with record.receptions")
+    why_command->add_option("RUN", why.run, "run directory, recorded with record.receptions")
         ->required();
-    command->add_option("FROM", why.sender, "node that sent, such as uav3")->required();
-    command->add_option("TO", why.receiver, "node that they were meant for, such as uav7")
+    why_command->add_option("FROM", why.sender, "node that sent, such as uav3")->required();
+    why_command->add_option("TO", why.receiver, "node that they were meant for, such as uav7")
         ->required();
-    command->add_option("--at", why.at, "time in the run, such as 12.3s")->required();
-    command->add_option("--for", why.window, "from then on")->capture_default_str();
-    command->add_flag("--csv", why.csv, "comma-separated");
+    why_command->add_option("--at", why.at, "time in the run, such as 12.3s")->required();
+    why_command->add_option("--for", why.window, "from then on")->capture_default_str();
+    why_command->add_flag("--csv", why.csv, "comma-separated");
   }
 
   /// What is wrong with the first argument, when it should have been a subcommand; else nothing.

@@ -5,7 +5,6 @@
 namespace cuscus::shm {
 namespace {
 
-constexpr std::uint32_t kRateUnit_kbps = 500;
 constexpr unsigned kLowestAt = 16;
 constexpr unsigned kHighestAt = 32;
 

@@ -28,6 +28,8 @@ enum class LinkCount : std::uint8_t {
   kTransmissions,  ///< Data frames put on the air, retries included.
 };
 inline constexpr std::size_t kLinkCounts = 14;
+/// The standard's own unit of rates.
+inline constexpr std::uint32_t kRateUnit_kbps = 500;
 
 /// Individually addressed frames know their rate per link, group frames per sender.
 struct LinkRates {

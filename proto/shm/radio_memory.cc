@@ -36,7 +36,6 @@ constexpr unsigned kLevelAt = 48;
 constexpr unsigned kRateAt = 32;
 constexpr float kLevelsPerDecibel = 100.0F;
 constexpr float kHighestLevel = 32'767.0F;
-constexpr std::uint32_t kRateUnit_kbps = 500;
 
 std::uint64_t word_of(const LinkReading& reading) {
   const auto level = static_cast<std::int16_t>(std::lround(

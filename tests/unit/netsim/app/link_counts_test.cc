@@ -6,17 +6,16 @@
 #include <utility>
 #include <vector>
 
+#include "tests/unit/netsim/app/instants.h"
+
 namespace cuscus::netsim {
 namespace {
 
 using shm::LinkCount;
-using std::chrono::microseconds;
 
 struct alignas(shm::kCacheLine) Line {
   std::array<std::byte, shm::kCacheLine> bytes;
 };
-
-SimTime at(std::int64_t us) { return SimTime{} + microseconds{us}; }
 
 /// Nodes on a line, and what is counted per link of their air.
 struct CountedAir final : public AirListener {
@@ -90,10 +89,10 @@ TEST_CASE("sums over links are the tallies of the nodes, cause by cause") {
     const std::int32_t destination = i % 4 == 0    ? kGroup
                                      : i % 97 == 0 ? kNobody
                                                    : static_cast<std::int32_t>((node + 1) % 6);
-    field.air.offer(node, at(std::int64_t{i} * 80),
+    field.air.offer(node, at_us(std::int64_t{i} * 80),
                     {.destination = destination, .psdu_bytes = i % 5 == 0 ? 1'000U : 200U});
   }
-  field.air.run_until(at(3'000'000));
+  field.air.run_until(at_us(3'000'000));
 
   REQUIRE_FALSE(field.air.next_event());  // all is over
   const std::array receiver_side{
@@ -135,9 +134,9 @@ TEST_CASE("sums over links are the tallies of the nodes, cause by cause") {
 TEST_CASE("an individually addressed frame has one end on its link, whatever it was tried") {
   CountedAir field{on_a_line({0.0, 30.0, 100'000.0}), {}};
 
-  field.air.offer(0, at(0), {.destination = 1, .psdu_bytes = 128});
-  field.air.offer(0, at(0), {.destination = 2, .psdu_bytes = 128});
-  field.air.run_until(at(1'000'000));
+  field.air.offer(0, at_us(0), {.destination = 1, .psdu_bytes = 128});
+  field.air.offer(0, at_us(0), {.destination = 2, .psdu_bytes = 128});
+  field.air.run_until(at_us(1'000'000));
 
   const shm::LinkTally near = field.reader.link_tally(0, 1);
   CHECK(near[LinkCount::kReceived] == 1);
@@ -155,8 +154,8 @@ TEST_CASE("a link knows the latest, the lowest and the highest rate that it was 
   parameters.data_rate_kbps = 54'000;
   CountedAir field{on_a_line({0.0, 100'000.0}), parameters};
 
-  field.air.offer(0, at(0), {.destination = 1, .psdu_bytes = 128});
-  field.air.run_until(at(1'000'000));
+  field.air.offer(0, at_us(0), {.destination = 1, .psdu_bytes = 128});
+  field.air.run_until(at_us(1'000'000));
 
   const shm::LinkRates rates = field.reader.link_tally(0, 1).rates;
   CHECK(rates.latest_kbps == rates.lowest_kbps);
@@ -167,8 +166,8 @@ TEST_CASE("a link knows the latest, the lowest and the highest rate that it was 
 TEST_CASE("what does not get into an interface was not received there") {
   CountedAir field{on_a_line({0.0, 30.0}), {}};
 
-  field.air.offer(0, at(0), {.psdu_bytes = 128});
-  field.air.run_until(at(10'000));
+  field.air.offer(0, at_us(0), {.psdu_bytes = 128});
+  field.air.run_until(at_us(10'000));
   field.counts.lost_at_interface(0, 1);
 
   CHECK(field.reader.link_tally(0, 1)[LinkCount::kReceived] == 0);

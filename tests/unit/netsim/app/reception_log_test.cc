@@ -11,15 +11,13 @@
 #include <vector>
 
 #include "common/posix/check.h"
+#include "tests/unit/netsim/app/instants.h"
 
 namespace cuscus::netsim {
 namespace {
 
 using logs::Cause;
 using logs::ReceptionLogRecord;
-using std::chrono::microseconds;
-
-SimTime at(std::int64_t us) { return SimTime{} + microseconds{us}; }
 
 /// Nodes that fly east at different speeds and turn, seen anew every millisecond.
 class MovingFleet final : public PositionSource {
@@ -111,12 +109,12 @@ TEST_CASE("the terms of every budget add up to the power that the air reckoned w
 
   for (int i = 0; i < 400; ++i) {
     const auto node = static_cast<std::uint32_t>(i) % 4;
-    field.air.offer(node, at(std::int64_t{i} * 700),
+    field.air.offer(node, at_us(std::int64_t{i} * 700),
                     {.id = static_cast<std::uint64_t>(i) + 1,
                      .destination = i % 2 == 0 ? kGroup : static_cast<std::int32_t>((node + 1) % 4),
                      .psdu_bytes = 1'000});
   }
-  field.air.run_until(at(2'000'000));
+  field.air.run_until(at_us(2'000'000));
   const auto records = field.records();
 
   REQUIRE(records.size() > 600);
@@ -140,8 +138,8 @@ TEST_CASE("a frame out of reach is logged at each of its attempts, and as given 
   // Below the floor of -114 dBm.
   LoggedAir field{{{0.0, 0.0, 20.0}, {100'000.0, 0.0, 20.0}}, {}};
 
-  field.air.offer(0, at(1'000), {.id = 9, .destination = 1, .psdu_bytes = 128});
-  field.air.run_until(at(1'000'000));
+  field.air.offer(0, at_us(1'000), {.id = 9, .destination = 1, .psdu_bytes = 128});
+  field.air.run_until(at_us(1'000'000));
   const auto records = field.records();
 
   REQUIRE(records.size() == 8);
@@ -165,9 +163,9 @@ TEST_CASE("a collision names the other sender, and what was overheard is not log
   // 0 and 2 send at once; 1, between them, hears neither.
   LoggedAir field{{{0.0, 0.0, 20.0}, {30.0, 0.0, 20.0}, {60.0, 0.0, 20.0}}, {}};
 
-  field.air.offer(0, at(0), {.id = 1, .destination = kGroup, .psdu_bytes = 128});
-  field.air.offer(2, at(0), {.id = 2, .destination = 1, .psdu_bytes = 128});
-  field.air.run_until(at(260));
+  field.air.offer(0, at_us(0), {.id = 1, .destination = kGroup, .psdu_bytes = 128});
+  field.air.offer(2, at_us(0), {.id = 2, .destination = 1, .psdu_bytes = 128});
+  field.air.run_until(at_us(260));
   const auto records = field.records();
 
   std::size_t at_1 = 0;
@@ -193,10 +191,10 @@ TEST_CASE("what finds no place in the queue, or in the interface, is logged with
   parameters.queue_frames = 1;
   LoggedAir field{{{0.0, 0.0, 20.0}, {30.0, 0.0, 20.0}}, parameters};
 
-  field.air.offer(0, at(0), {.id = 1, .destination = kGroup, .psdu_bytes = 128});
-  field.air.offer(0, at(10), {.id = 2, .destination = kGroup, .psdu_bytes = 128});
-  field.air.run_until(at(10'000));
-  field.log.copy_lost(1, 0, 1, at(400), Cause::kLinkDown);
+  field.air.offer(0, at_us(0), {.id = 1, .destination = kGroup, .psdu_bytes = 128});
+  field.air.offer(0, at_us(10), {.id = 2, .destination = kGroup, .psdu_bytes = 128});
+  field.air.run_until(at_us(10'000));
+  field.log.copy_lost(1, 0, 1, at_us(400), Cause::kLinkDown);
   const auto records = field.records();
 
   REQUIRE(records.size() == 3);

@@ -16,7 +16,7 @@ struct alignas(shm::kCacheLine) Line {
   std::array<std::byte, shm::kCacheLine> bytes;
 };
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::vector<std::string> rows_of(const std::string& text) {
   std::vector<std::string> lines;
   std::istringstream stream{text};
   for (std::string line; std::getline(stream, line);) {
@@ -42,7 +42,7 @@ TEST_CASE("links.csv has a row per link that was used, causes and rates in colum
   writer.link_tally(1, shm::kToNobody).count(LinkCount::kDroppedRetryLimit);
 
   const auto lines =
-      lines_of(links_csv(std::vector<std::string>{"uav0", "uav1"}, shm::RadioMemoryReader{bytes}));
+      rows_of(links_csv(std::vector<std::string>{"uav0", "uav1"}, shm::RadioMemoryReader{bytes}));
 
   REQUIRE(lines.size() == 4);
   CHECK(lines[0] ==
