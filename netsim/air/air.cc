@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <stdexcept>
 
@@ -126,6 +127,15 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
   if (parameters.disruption.fraction != 0.0) {
     disruption_.emplace(parameters.disruption);
   }
+  if (!parameters.jammers.empty()) {
+    std::vector<Decibel> gains;
+    std::transform(radios_.begin(), radios_.end(), std::back_inserter(gains),
+                   [](const AirNode& radio) { return radio.antenna_gain; });
+    jamming_.emplace(parameters.jammers,
+                     Band{parameters.channel.carrier_hz, standard_->bandwidth_hz}, channel_,
+                     antenna_.get(), std::move(gains));
+    queue_.schedule(SimTime{}, event_rank(EventRank::kJamming, 0), {.kind = Step::Kind::kJamming});
+  }
   require(!radios_.empty() && radios_.size() <= 65'535, "there must be 1 to 65535 nodes");
   require(positions.positions(SimTime{}).size() >= radios_.size(), "a node has no position");
   RateSetting rates = rate_setting(*standard_, *mac_.data_mode, *errors_);
@@ -240,6 +250,9 @@ bool Air::run_next(SimTime limit) {
       stations_[step.index].mac->timer(now_, static_cast<MacTimer>(step.detail));
       break;
     }
+    case Step::Kind::kJamming:
+      update_jamming();
+      break;
   }
   return true;
 }
@@ -298,6 +311,20 @@ void Air::release(std::uint32_t frame) {
   }
   free_pending_.push_back(frame);
   listener_->finished(report);
+}
+
+void Air::update_jamming() {
+  const auto& positions = positions_->positions(now_);
+  const auto received_mw = jamming_->received_mw(
+      now_, {.p_WN = positions, .q_WN = positions_->attitudes(), .version = positions_->version()});
+  if (const auto next = jamming_->next_change(now_)) {
+    queue_.schedule(*next, event_rank(EventRank::kJamming, 0), {.kind = Step::Kind::kJamming});
+  }
+  for (std::uint32_t node = 0; node < stations_.size(); ++node) {
+    if (stations_[node].receiver.jam(now_, received_mw[node])) {
+      update_medium(node);
+    }
+  }
 }
 
 bool Air::meant_for(const MacFrame& frame, std::uint32_t node) const {

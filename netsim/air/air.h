@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "netsim/air/air_monitor.h"
+#include "netsim/air/jamming.h"
 #include "netsim/air/tally.h"
 #include "netsim/channel/antenna.h"
 #include "netsim/channel/channel.h"
@@ -94,6 +95,7 @@ struct AirParameters {
   Decibel arrival_floor_below_noise{20.0};
   ChannelParameters channel{};
   DisruptionParameters disruption{};
+  std::vector<JammerParameters> jammers{};
   AntennaParameters antenna{};
   std::vector<AirNode> nodes{};
 };
@@ -214,7 +216,7 @@ class Air final : private MacHost {
     std::uint32_t references{0};  ///< The MAC, and transmissions that carry it.
   };
   struct Step {
-    enum class Kind : std::uint8_t { kOffer, kSweep, kTransmissionEnd, kTimer };
+    enum class Kind : std::uint8_t { kOffer, kSweep, kTransmissionEnd, kTimer, kJamming };
     Kind kind{Kind::kOffer};
     std::uint8_t detail{0};  ///< Phase or MacTimer.
     std::uint32_t index{0};  ///< Pending frame, transmission, or node.
@@ -238,6 +240,7 @@ class Air final : private MacHost {
   [[nodiscard]] bool disrupted(const Transmission& transmission, const Arrival& arrival) const;
   void finish_arrival(Transmission& transmission, Arrival& arrival);
   void end_of_sweeps(std::uint32_t index);
+  void update_jamming();
   void update_medium(std::uint32_t node);
   void release(std::uint32_t frame);
   [[nodiscard]] bool meant_for(const MacFrame& frame, std::uint32_t node) const;
@@ -251,6 +254,7 @@ class Air final : private MacHost {
   Channel channel_;
   std::unique_ptr<const Antenna> antenna_;  ///< Nothing: isotropic.
   std::optional<Disruption> disruption_;
+  std::optional<Jamming> jamming_;
   double floor_mw_;
   double reach_floor_mw_;  ///< What is below on average is below the floor in every frame.
   Duration shortest_airtime_;

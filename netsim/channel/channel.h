@@ -58,7 +58,7 @@ struct ChannelParameters {
   Decibel k_factor_overhead{-std::numeric_limits<double>::infinity()};  ///< rice: at the zenith.
   double residual_doppler_hz{1.0};                                      ///< rice.
   double nakagami_m{1.0};
-  std::vector<BoxObstacle> obstacles;
+  std::vector<BoxObstacle> obstacles{};
   std::uint64_t seed{1};
 };
 

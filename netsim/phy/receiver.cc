@@ -90,18 +90,18 @@ bool Receiver::detect(SimTime now, Arrival& arrival, const PpduTiming& timing) {
   }
   const double interference_mw = std::max(0.0, total_mw_ - arrival.power_mw);
   arrival.sinr_ratio =
-      static_cast<float>(arrival.power_mw / (model_->noise_mw() + interference_mw));
+      static_cast<float>(arrival.power_mw / (model_->noise_mw() + interference_mw + jamming_mw_));
   const Arrival* const other = present_.size() > 1 ? strongest_other(arrival) : nullptr;
   arrival.interferer = other != nullptr ? other->sender : kNoSender;
   if (transmitting_) {
     arrival.cause = LossCause::kHalfDuplex;
   } else if (!model_->detectable(arrival.power_mw, 0.0)) {
     arrival.cause = LossCause::kBelowDetection;
-  } else if (!model_->detectable(arrival.power_mw, interference_mw) ||
-             (locked_ != nullptr &&
-              !model_->captures(now < timing_.header_begins, arrival.power_mw, interference_mw))) {
+  } else if (!gets_receiver(now, arrival, interference_mw)) {
     arrival.cause = LossCause::kCollision;
     arrival.interferer = locked_ != nullptr ? locked_->sender : arrival.interferer;
+  } else if (jamming_mw_ > 0.0 && !gets_receiver(now, arrival, interference_mw + jamming_mw_)) {
+    arrival.cause = LossCause::kJammed;
   } else {
     if (locked_ != nullptr) {
       locked_->cause = LossCause::kCollision;
@@ -115,6 +115,12 @@ bool Receiver::detect(SimTime now, Arrival& arrival, const PpduTiming& timing) {
   return false;
 }
 
+bool Receiver::gets_receiver(SimTime now, const Arrival& arrival, double disturbance_mw) const {
+  return model_->detectable(arrival.power_mw, disturbance_mw) &&
+         (locked_ == nullptr ||
+          model_->captures(now < timing_.header_begins, arrival.power_mw, disturbance_mw));
+}
+
 void Receiver::lock_on(SimTime now, Arrival& arrival, const PpduTiming& timing) {
   locked_ = &arrival;
   carrier_ = arrival.power_mw >= model_->cca_preamble_mw();
@@ -123,8 +129,8 @@ void Receiver::lock_on(SimTime now, Arrival& arrival, const PpduTiming& timing) 
              .energy_ends = timing.energy_ends + arrival.delay,
              .mode = timing.mode};
   chunk_begins_ = now;
-  log_header_ = 0.0;
-  log_payload_ = 0.0;
+  header_ = {};
+  payload_ = {};
 }
 
 Receiver::Header Receiver::header(SimTime now, Arrival& arrival) {
@@ -133,12 +139,12 @@ Receiver::Header Receiver::header(SimTime now, Arrival& arrival) {
   }
   settle(now);
   const PpduFormat& format = *timing_.mode->format;
-  const double in_noise =
-      log_header_ == 0.0
-          ? 0.0
-          : model_->log_success_of(format.header_modulation, format.header_code_rate,
-                                   arrival.power_mw / model_->noise_mw(), format.header_bits);
-  if (!decide(arrival, log_header_, in_noise)) {
+  if (header_.with_all != 0.0) {
+    header_.in_noise =
+        model_->log_success_of(format.header_modulation, format.header_code_rate,
+                               arrival.power_mw / model_->noise_mw(), format.header_bits);
+  }
+  if (!decide(arrival, header_)) {
     locked_ = nullptr;
     return Header::kFailed;
   }
@@ -158,13 +164,12 @@ void Receiver::energy_ends(SimTime now, Arrival& arrival) {
     return;
   }
   const Mode& mode = *timing_.mode;
-  const double in_noise =
-      log_payload_ == 0.0
-          ? 0.0
-          : model_->log_success_of(mode.modulation, mode.code_rate,
-                                   arrival.power_mw / model_->noise_mw(),
-                                   bits_of(mode, timing_.energy_ends - timing_.payload_begins));
-  arrival.decoded = decide(arrival, log_payload_, in_noise);
+  if (payload_.with_all != 0.0) {
+    payload_.in_noise = model_->log_success_of(
+        mode.modulation, mode.code_rate, arrival.power_mw / model_->noise_mw(),
+        bits_of(mode, timing_.energy_ends - timing_.payload_begins));
+  }
+  arrival.decoded = decide(arrival, payload_);
 }
 
 Receiver::End Receiver::finish(Arrival& arrival) {
@@ -184,44 +189,66 @@ void Receiver::start_transmission() {
   transmitting_ = true;
 }
 
+bool Receiver::jam(SimTime now, double power_mw) {
+  if (power_mw == jamming_mw_) {
+    return false;
+  }
+  settle(now);
+  jamming_mw_ = power_mw;
+  return true;
+}
+
 void Receiver::settle(SimTime now) {
   if (locked_ == nullptr || now <= chunk_begins_) {
     return;
   }
-  const double interference_mw = std::max(0.0, total_mw_ - locked_->power_mw);
-  charge(chunk_begins_, now, locked_->power_mw / (model_->noise_mw() + interference_mw));
+  const double disturbance_mw = model_->noise_mw() + std::max(0.0, total_mw_ - locked_->power_mw);
+  charge(chunk_begins_, now, locked_->power_mw / (disturbance_mw + jamming_mw_),
+         locked_->power_mw / disturbance_mw);
   chunk_begins_ = now;
 }
 
-void Receiver::charge(SimTime from, SimTime to, double sinr_ratio) {
+void Receiver::charge(SimTime from, SimTime to, double sinr_ratio, double sinr_without_jamming) {
   const Mode& mode = *timing_.mode;
   locked_->sinr_ratio = std::min(locked_->sinr_ratio, static_cast<float>(sinr_ratio));
   const Duration in_header =
       std::min(to, timing_.payload_begins) - std::max(from, timing_.header_begins);
   if (in_header > Duration::zero()) {
-    log_header_ +=
-        model_->log_success_of(mode.format->header_modulation, mode.format->header_code_rate,
-                               sinr_ratio, header_bits_of(mode, in_header));
+    charge(header_, mode.format->header_modulation, mode.format->header_code_rate,
+           header_bits_of(mode, in_header), sinr_ratio, sinr_without_jamming);
   }
   const Duration in_payload =
       std::min(to, timing_.energy_ends) - std::max(from, timing_.payload_begins);
   if (in_payload > Duration::zero()) {
-    log_payload_ += model_->log_success_of(mode.modulation, mode.code_rate, sinr_ratio,
-                                           bits_of(mode, in_payload));
+    charge(payload_, mode.modulation, mode.code_rate, bits_of(mode, in_payload), sinr_ratio,
+           sinr_without_jamming);
   }
 }
 
-bool Receiver::decide(Arrival& arrival, double log_success, double log_success_in_noise) {
-  if (log_success == 0.0) {
+void Receiver::charge(Survival& field, Modulation modulation, CodeRate code_rate, double bits,
+                      double sinr_ratio, double sinr_without_jamming) const {
+  const double all = model_->log_success_of(modulation, code_rate, sinr_ratio, bits);
+  field.with_all += all;
+  field.without_jamming +=
+      jamming_mw_ > 0.0 ? model_->log_success_of(modulation, code_rate, sinr_without_jamming, bits)
+                        : all;
+}
+
+bool Receiver::decide(Arrival& arrival, const Survival& survival) {
+  if (survival.with_all == 0.0) {
     return true;
   }
   const double u = draws_.uniform(draw_++);
-  if (u < std::exp(log_success)) {
+  if (u < std::exp(survival.with_all)) {
     return true;
   }
-  // The same draw decides who is to blame: the frame that noise alone would have spoilt too is
-  // charged to noise.
-  arrival.cause = u < std::exp(log_success_in_noise) ? LossCause::kInterference : LossCause::kNoise;
+  // The same draw decides who is to blame: the frame that would have come through without jammers
+  // was jammed, and the one that noise alone would have spoilt too is charged to noise.
+  if (u < std::exp(survival.without_jamming)) {
+    arrival.cause = LossCause::kJammed;
+  } else {
+    arrival.cause = u < std::exp(survival.in_noise) ? LossCause::kInterference : LossCause::kNoise;
+  }
   return false;
 }
 

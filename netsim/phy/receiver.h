@@ -105,7 +105,8 @@ struct PpduTiming {
 /// stretch since the last change is charged with its own SINR. A frame is locked on when its
 /// preamble has been heard for the CCA time, nothing else is being received and it is strong
 /// enough. A locked receiver stays with its frame unless a later one captures it. SIGNAL field and
-/// payload are decided apart.
+/// payload are decided apart. Jamming is noise that changes: it adds to the noise of every chunk
+/// and to the energy of carrier sense.
 ///
 /// The caller brings events in the order of their time: begin and, after the CCA time, detect;
 /// header at the end of the SIGNAL field; energy_ends; finish after the signal extension. Arrivals
@@ -127,6 +128,9 @@ class Receiver {
   /// Frees the receiver if it was locked on this arrival.
   End finish(Arrival& arrival);
 
+  /// Noise from jammers from now on; false when it is as before.
+  bool jam(SimTime now, double power_mw);
+
   /// The node's own transmission; whatever was being received is lost.
   void start_transmission();
   void end_transmission() { transmitting_ = false; }
@@ -134,20 +138,34 @@ class Receiver {
   [[nodiscard]] bool transmitting() const { return transmitting_; }
   /// Physical carrier sense.
   [[nodiscard]] bool medium_busy() const {
-    return total_mw_ >= model_->cca_energy_mw() || (locked_ != nullptr && carrier_);
+    return total_mw_ + jamming_mw_ >= model_->cca_energy_mw() || (locked_ != nullptr && carrier_);
   }
 
  private:
+  /// ln of the probability that the bits so far have survived: with all that disturbs, with all but
+  /// jammers, and with noise alone.
+  struct Survival {
+    double with_all{0.0};
+    double without_jamming{0.0};
+    double in_noise{0.0};
+  };
+
+  /// Whether the receiver locks on to a frame that it could hear in noise alone.
+  [[nodiscard]] bool gets_receiver(SimTime now, const Arrival& arrival,
+                                   double disturbance_mw) const;
   [[nodiscard]] const Arrival* strongest_other(const Arrival& arrival) const;
   void lock_on(SimTime now, Arrival& arrival, const PpduTiming& timing);
   void settle(SimTime now);
-  void charge(SimTime from, SimTime to, double sinr_ratio);
-  bool decide(Arrival& arrival, double log_success, double log_success_in_noise);
+  void charge(SimTime from, SimTime to, double sinr_ratio, double sinr_without_jamming);
+  void charge(Survival& field, Modulation modulation, CodeRate code_rate, double bits,
+              double sinr_ratio, double sinr_without_jamming) const;
+  bool decide(Arrival& arrival, const Survival& survival);
 
   const ReceiverModel* model_;
   random::CounterStream draws_;
   std::uint64_t draw_{0};
-  double total_mw_{0.0};
+  double total_mw_{0.0};  ///< Of frames.
+  double jamming_mw_{0.0};
   std::vector<const Arrival*> present_;  ///< Whose energy is on the antenna.
   bool transmitting_{false};
   // The frame being received.
@@ -155,8 +173,8 @@ class Receiver {
   bool carrier_{false};
   PpduTiming timing_{};  ///< At this antenna.
   SimTime chunk_begins_{};
-  double log_header_{0.0};
-  double log_payload_{0.0};
+  Survival header_{};
+  Survival payload_{};
   double interferer_mw_{0.0};  ///< Of locked_->interferer.
 };
 
