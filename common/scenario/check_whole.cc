@@ -261,6 +261,16 @@ void check_captures(const Scenario& scenario, Problems& problems) {
   }
 }
 
+void check_obstacles(const Scenario& scenario, Problems& problems) {
+  const Radio& radio = scenario.radio;
+  if (!radio.obstacles.empty() && draws_line_of_sight(radio.propagation)) {
+    problems.add("/radio/obstacles",
+                 "are a map, and the model of radio/propagation stands in for one by chance of "
+                 "line of sight; allowed: friis, log-distance, paper-eq1, two-ray, p1411, or no "
+                 "obstacles");
+  }
+}
+
 /// Fills the placeholders in as the plan will, with addresses that only need to exist.
 void check_placeholders(const Scenario& scenario, Problems& problems) {
   const std::set<std::string> names = node_names(scenario);
@@ -308,6 +318,7 @@ void check_whole(const Scenario& scenario, Problems& problems) {
   check_placeholders(scenario, problems);
   check_tdma(scenario, problems);
   check_captures(scenario, problems);
+  check_obstacles(scenario, problems);
 }
 
 }  // namespace cuscus::scenario

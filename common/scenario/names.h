@@ -45,6 +45,9 @@ inline constexpr std::array kBuiltUpAreaNames{
 inline constexpr std::array kAerialAreaNames{Named<AerialArea>{"RMa-AV", AerialArea::kRuralMacro},
                                              Named<AerialArea>{"UMa-AV", AerialArea::kUrbanMacro},
                                              Named<AerialArea>{"UMi-AV", AerialArea::kUrbanMicro}};
+/// Losses of outer walls by material: sections 3.1.2 and 4 of the CUSCUS paper.
+inline constexpr std::array kWallNames{Named<double>{"stone", 12.0},
+                                       Named<double>{"concrete", 15.0}};
 inline constexpr std::array kErrorModelNames{Named<ErrorModel>{"nist", ErrorModel::kNist},
                                              Named<ErrorModel>{"yans", ErrorModel::kYans},
                                              Named<ErrorModel>{"table", ErrorModel::kTable}};

@@ -66,6 +66,9 @@ Propagation read_propagation(const json* value, const std::string& path, Problem
       PaperPropagation model;
       model.alpha = reader.number("alpha", model.alpha, {0.0, 100.0});
       model.chi_dB2 = reader.quantity("chi", model.chi_dB2, {kVariance, "0 dB2", "1000 dB2"});
+      const QuantityRange wall_range{kPowerRatio, "0 dB", "300 dB"};
+      model.outer_wall.value = reader.quantity("outer_wall", model.outer_wall.value, wall_range);
+      model.inner_wall.value = reader.quantity("inner_wall", model.inner_wall.value, wall_range);
       reader.finish();
       return model;
     }

@@ -39,7 +39,9 @@ struct LogDistancePropagation {
 /// Equation 1 of the CUSCUS paper (doi 10.1016/j.adhoc.2017.09.004).
 struct PaperPropagation {
   double alpha{20.0};
-  double chi_dB2{0.0};  ///< Variance of Psi.
+  double chi_dB2{0.0};       ///< Variance of Psi.
+  Decibel outer_wall{12.0};  ///< Of each outer wall of an obstacle.
+  Decibel inner_wall{5.0};   ///< Of each inner one.
 };
 
 enum class Ground { kVeryDry, kMediumDry, kWet };
@@ -110,6 +112,22 @@ struct NoFading {};
 
 using Fading = std::variant<NoFading, RiceFading, NakagamiFading>;
 
+/// Evenly spaced walls within an obstacle.
+struct InnerWalls {
+  double spacing_m{5.0};
+  Decibel loss{5.0};  ///< Of one.
+};
+
+/// A box that stands on the ground, for radio waves only.
+struct BoxObstacle {
+  std::string name;
+  std::array<double, 2> centre_m{};
+  std::array<double, 3> size_m{};  ///< Length, width, height.
+  double heading_rad{0.0};         ///< Of the length, counter-clockwise from east.
+  Decibel outer_wall{12.0};        ///< Of one wall, and of the roof.
+  std::optional<InnerWalls> inner_walls;
+};
+
 enum class RadioStandard { k80211a, k80211b, k80211g, k80211p };
 /// From which basic rates ACK and CTS are taken.
 enum class ControlAnswer { kSameClass, kAnyClass };
@@ -174,6 +192,19 @@ struct Disruption {
   std::optional<Duration> phase{Duration{0}};  ///< Offset in the interval; nothing: at random.
 };
 
+/// A located source of noise.
+struct Jammer {
+  std::string name;
+  std::array<double, 3> position_m{};
+  DecibelMilliwatt power{20.0};        ///< EIRP.
+  std::optional<double> frequency_hz;  ///< Nothing: the channel's.
+  double bandwidth_hz{20e6};
+  double duty{1.0};  ///< Of every period.
+  Duration period{std::chrono::milliseconds{10}};
+  Duration start{0};
+  std::optional<Duration> stop;  ///< Nothing: never.
+};
+
 struct Radio {
   RadioStandard standard{RadioStandard::k80211g};
   std::uint32_t data_rate_kbps{6000};   ///< Individually addressed frames.
@@ -205,6 +236,8 @@ struct Radio {
   std::optional<Shadowing> shadowing;
   Fading fading{NoFading{}};
   std::optional<Disruption> disruption;
+  std::vector<BoxObstacle> obstacles;
+  std::vector<Jammer> jammers;
 };
 
 enum class Attach { kBridge, kDirect };

@@ -28,6 +28,10 @@ namespace cuscus::scenario {
 [[nodiscard]] std::optional<Disruption> read_disruption(const nlohmann::json* value,
                                                         const std::string& path,
                                                         Problems& problems);
+[[nodiscard]] std::vector<BoxObstacle> read_obstacles(const nlohmann::json* value,
+                                                      const std::string& path, Problems& problems);
+[[nodiscard]] std::vector<Jammer> read_jammers(const nlohmann::json* value, const std::string& path,
+                                               Problems& problems);
 [[nodiscard]] Network read_network(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] World read_world(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] GroundStation read_ground_station(const nlohmann::json* value, Problems& problems);

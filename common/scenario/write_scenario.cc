@@ -41,7 +41,9 @@ Json json_of(const LogDistancePropagation& model) {
 Json json_of(const PaperPropagation& model) {
   return {{"model", "paper-eq1"},
           {"alpha", model.alpha},
-          {"chi", format_quantity(model.chi_dB2, kVariance)}};
+          {"chi", format_quantity(model.chi_dB2, kVariance)},
+          {"outer_wall", format_quantity(model.outer_wall.value, kPowerRatio)},
+          {"inner_wall", format_quantity(model.inner_wall.value, kPowerRatio)}};
 }
 
 Json json_of(const TwoRayPropagation& model) {
@@ -131,6 +133,42 @@ Json json_of(const std::optional<Disruption>& disruption) {
           {"phase", disruption->phase ? text(*disruption->phase) : "random"}};
 }
 
+Json json_of(const BoxObstacle& box) {
+  Json inner_walls = "none";
+  if (box.inner_walls) {
+    inner_walls = {{"spacing", format_quantity(box.inner_walls->spacing_m, kLength)},
+                   {"loss", format_quantity(box.inner_walls->loss.value, kPowerRatio)}};
+  }
+  return {{"name", box.name},
+          {"centre", lengths(box.centre_m)},
+          {"size", lengths(box.size_m)},
+          {"heading", format_quantity(box.heading_rad, kAngle)},
+          {"outer_wall", format_quantity(box.outer_wall.value, kPowerRatio)},
+          {"inner_walls", inner_walls}};
+}
+
+Json json_of(const Jammer& jammer) {
+  return {{"name", jammer.name},
+          {"position", lengths(jammer.position_m)},
+          {"power", format_quantity(jammer.power.value, kPower)},
+          {"frequency",
+           jammer.frequency_hz ? format_quantity(*jammer.frequency_hz, kFrequency) : "channel"},
+          {"bandwidth", format_quantity(jammer.bandwidth_hz, kFrequency)},
+          {"duty", jammer.duty},
+          {"period", text(jammer.period)},
+          {"start", text(jammer.start)},
+          {"stop", jammer.stop ? text(*jammer.stop) : "none"}};
+}
+
+template <typename Element>
+Json array_of(const std::vector<Element>& elements) {
+  Json array = Json::array();
+  for (const Element& element : elements) {
+    array.push_back(json_of(element));
+  }
+  return array;
+}
+
 Json json_of(const Radio& radio) {
   Json basic_rates = Json::array();
   for (const std::uint32_t rate_kbps : radio.basic_rates_kbps) {
@@ -178,7 +216,9 @@ Json json_of(const Radio& radio) {
        std::visit([](const auto& model) { return json_of(model); }, radio.propagation)},
       {"shadowing", json_of(radio.shadowing)},
       {"fading", std::visit([](const auto& model) { return json_of(model); }, radio.fading)},
-      {"disruption", json_of(radio.disruption)}};
+      {"disruption", json_of(radio.disruption)},
+      {"obstacles", array_of(radio.obstacles)},
+      {"jammers", array_of(radio.jammers)}};
 }
 
 Json json_of(const World& world) {

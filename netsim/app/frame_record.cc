@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <concepts>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -101,6 +103,71 @@ bool read(std::string_view field, std::vector<Number>& values) {
   return true;
 }
 
+/// A row of numbers for each of a list of things, without breaks between them.
+std::vector<double> row_of(const BoxObstacle& box) {
+  const auto& [centre_m, size_m, heading_rad] = box.shape;
+  return {centre_m.x(), centre_m.y(),         size_m.x(),          size_m.y(),          size_m.z(),
+          heading_rad,  box.outer_wall.value, box.inner_spacing_m, box.inner_wall.value};
+}
+void take_row(std::span<const double> row, BoxObstacle& box) {
+  box.shape = {
+      .centre_m = {row[0], row[1]}, .size_m = {row[2], row[3], row[4]}, .heading_rad = row[5]};
+  box.outer_wall = {row[6]};
+  box.inner_spacing_m = row[7];
+  box.inner_wall = {row[8]};
+}
+
+std::vector<double> row_of(const JammerParameters& jammer) {
+  return {jammer.p_WJ.x(),
+          jammer.p_WJ.y(),
+          jammer.p_WJ.z(),
+          jammer.power.value,
+          jammer.band.centre_hz,
+          jammer.band.width_hz,
+          jammer.duty,
+          to_seconds(jammer.period),
+          to_seconds(jammer.start),
+          jammer.stop == Duration::max() ? -1.0 : to_seconds(jammer.stop)};
+}
+void take_row(std::span<const double> row, JammerParameters& jammer) {
+  const auto duration = [](double s) { return Duration{std::llround(s * 1e9)}; };
+  jammer = {.p_WJ = {row[0], row[1], row[2]},
+            .power = {row[3]},
+            .band = {.centre_hz = row[4], .width_hz = row[5]},
+            .duty = row[6],
+            .period = duration(row[7]),
+            .start = duration(row[8]),
+            .stop = row[9] < 0.0 ? Duration::max() : duration(row[9])};
+}
+
+template <typename Thing>
+concept HasRow = requires(const Thing& thing) {
+  row_of(thing);
+};
+
+template <HasRow Thing>
+std::string text_of(const std::vector<Thing>& things) {
+  std::vector<double> rows;
+  for (const Thing& thing : things) {
+    const std::vector<double> row = row_of(thing);
+    rows.insert(rows.end(), row.begin(), row.end());
+  }
+  return text_of(rows);
+}
+template <HasRow Thing>
+bool read(std::string_view field, std::vector<Thing>& things) {
+  std::vector<double> rows;
+  const std::size_t length = row_of(Thing{}).size();
+  if (!read(field, rows) || rows.size() % length != 0) {
+    return false;
+  }
+  things.clear();
+  for (std::size_t begin = 0; begin < rows.size(); begin += length) {
+    take_row(std::span<const double>{rows}.subspan(begin, length), things.emplace_back());
+  }
+  return true;
+}
+
 /// One value per node.
 template <typename Value>
 std::vector<double> of_nodes(const AirParameters& p, Value AirNode::*member) {
@@ -160,6 +227,8 @@ void for_each_common(Parameters& p, const Field& field) {
   field("reference_loss_db", p.channel.reference_loss.value);
   field("alpha", p.channel.alpha);
   field("chi_db2", p.channel.chi_db2);
+  field("outer_wall_db", p.channel.outer_wall.value);
+  field("inner_wall_db", p.channel.inner_wall.value);
   field("ground", p.channel.ground);
   field("polarisation", p.channel.polarisation);
   field("roughness_m", p.channel.roughness_m);
@@ -175,6 +244,8 @@ void for_each_common(Parameters& p, const Field& field) {
   field("k_factor_overhead_db", p.channel.k_factor_overhead.value);
   field("residual_doppler_hz", p.channel.residual_doppler_hz);
   field("nakagami_m", p.channel.nakagami_m);
+  field("obstacles", p.channel.obstacles);
+  field("jammers", p.jammers);
   field("antenna", p.antenna.model);
   field("antenna_pattern_dbi", p.antenna.pattern_dbi);
   field("antenna_pattern_azimuths", p.antenna.pattern_azimuths);

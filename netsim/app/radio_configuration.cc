@@ -2,8 +2,41 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace cuscus::netsim {
+namespace {
+
+std::vector<BoxObstacle> obstacles_of(const proto::RadioConfiguration& c) {
+  std::vector<BoxObstacle> boxes;
+  for (const proto::BoxObstacle& box : c.obstacles()) {
+    boxes.push_back({.shape = {.centre_m = {box.centre_x_m(), box.centre_y_m()},
+                               .size_m = {box.size_m().x(), box.size_m().y(), box.size_m().z()},
+                               .heading_rad = box.heading_rad()},
+                     .outer_wall = {box.outer_wall_db()},
+                     .inner_spacing_m = box.inner_spacing_m(),
+                     .inner_wall = {box.inner_wall_db()}});
+  }
+  return boxes;
+}
+
+std::vector<JammerParameters> jammers_of(const proto::RadioConfiguration& c) {
+  std::vector<JammerParameters> jammers;
+  for (const proto::Jammer& jammer : c.jammers()) {
+    const proto::Vector3& p_WJ = jammer.p_wj_m();
+    jammers.push_back(
+        {.p_WJ = {p_WJ.x(), p_WJ.y(), p_WJ.z()},
+         .power = {jammer.power_dbm()},
+         .band = {.centre_hz = jammer.frequency_hz(), .width_hz = jammer.bandwidth_hz()},
+         .duty = jammer.duty(),
+         .period = Duration{jammer.period_ns()},
+         .start = Duration{jammer.start_ns()},
+         .stop = Duration{jammer.stop_ns()}});
+  }
+  return jammers;
+}
+
+}  // namespace
 
 AirParameters air_parameters(const proto::RadioConfiguration& c) {
   AirParameters air;
@@ -45,6 +78,8 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
                  .reference_loss = {p.reference_loss_db()},
                  .alpha = p.alpha(),
                  .chi_db2 = p.chi_db2(),
+                 .outer_wall = {p.outer_wall_db()},
+                 .inner_wall = {p.inner_wall_db()},
                  .ground = p.ground(),
                  .polarisation = p.horizontal_polarisation() ? Polarisation::kHorizontal
                                                              : Polarisation::kVertical,
@@ -61,7 +96,9 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
                  .k_factor_overhead = {p.k_factor_overhead_db()},
                  .residual_doppler_hz = p.residual_doppler_hz(),
                  .nakagami_m = p.nakagami_m(),
+                 .obstacles = obstacles_of(c),
                  .seed = c.seed()};
+  air.jammers = jammers_of(c);
   if (!c.antenna().empty()) {
     air.antenna = {.model = c.antenna(),
                    .pattern_dbi = {c.antenna_pattern_dbi().begin(), c.antenna_pattern_dbi().end()},

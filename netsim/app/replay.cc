@@ -128,6 +128,9 @@ ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power) {
   AirParameters parameters = log.air;
   parameters.channel.seed = parameters.seed;
   if (log.positions.empty()) {
+    // Where walls and jammers are means nothing without where the nodes are.
+    parameters.channel.obstacles.clear();
+    parameters.jammers.clear();
     parameters.channel.model = "fixed";
     parameters.channel.reference_loss = parameters.nodes.front().tx_power - equal_power;
   }

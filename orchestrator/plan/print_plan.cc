@@ -89,6 +89,12 @@ std::string radio_terms(const proto::RadioConfiguration& radio) {
     out += fmt::format(", disrupted {} % of every {} s", 100.0 * radio.disruption_fraction(),
                        static_cast<double>(radio.disruption_interval_ns()) * 1e-9);
   }
+  if (radio.obstacles_size() > 0) {
+    out += fmt::format(", {} obstacles", radio.obstacles_size());
+  }
+  if (radio.jammers_size() > 0) {
+    out += fmt::format(", {} jammers", radio.jammers_size());
+  }
   if (radio.rate_control() != "constant") {
     out += ", rate control " + radio.rate_control();
   }

@@ -75,6 +75,8 @@ void add_model(const scenario::Propagation& from, proto::PropagationConfiguratio
     result.set_model("paper-eq1");
     result.set_alpha(paper->alpha);
     result.set_chi_db2(paper->chi_dB2);
+    result.set_outer_wall_db(paper->outer_wall.value);
+    result.set_inner_wall_db(paper->inner_wall.value);
   } else if (const auto* two_ray = std::get_if<scenario::TwoRayPropagation>(&from)) {
     result.set_model("two-ray");
     result.set_ground(name_of(scenario::kGroundNames, two_ray->ground));
@@ -106,6 +108,40 @@ proto::PropagationConfiguration propagation_of(const scenario::Radio& radio) {
   }
   add_fading(radio.fading, result);
   return result;
+}
+
+template <typename Array>
+void set_vector(const Array& from, proto::Vector3& result) {
+  result.set_x(from[0]);
+  result.set_y(from[1]);
+  result.set_z(from[2]);
+}
+
+void add_obstacle(const scenario::BoxObstacle& from, proto::RadioConfiguration& radio) {
+  proto::BoxObstacle& box = *radio.add_obstacles();
+  box.set_name(from.name);
+  box.set_centre_x_m(from.centre_m[0]);
+  box.set_centre_y_m(from.centre_m[1]);
+  set_vector(from.size_m, *box.mutable_size_m());
+  box.set_heading_rad(from.heading_rad);
+  box.set_outer_wall_db(from.outer_wall.value);
+  if (from.inner_walls) {
+    box.set_inner_spacing_m(from.inner_walls->spacing_m);
+    box.set_inner_wall_db(from.inner_walls->loss.value);
+  }
+}
+
+void add_jammer(const scenario::Jammer& from, double channel_hz, proto::RadioConfiguration& radio) {
+  proto::Jammer& jammer = *radio.add_jammers();
+  jammer.set_name(from.name);
+  set_vector(from.position_m, *jammer.mutable_p_wj_m());
+  jammer.set_power_dbm(from.power.value);
+  jammer.set_frequency_hz(from.frequency_hz.value_or(channel_hz));
+  jammer.set_bandwidth_hz(from.bandwidth_hz);
+  jammer.set_duty(from.duty);
+  jammer.set_period_ns(from.period.count());
+  jammer.set_start_ns(from.start.count());
+  jammer.set_stop_ns(from.stop.value_or(scenario::Duration::max()).count());
 }
 
 }  // namespace
@@ -152,6 +188,12 @@ proto::RadioConfiguration radio_configuration(const scenario::Radio& from, std::
     radio.set_disruption_interval_ns(disruption->interval.count());
     radio.set_disruption_offset_ns(disruption->phase.value_or(scenario::Duration{0}).count());
     radio.set_disruption_at_random(!disruption->phase);
+  }
+  for (const scenario::BoxObstacle& box : from.obstacles) {
+    add_obstacle(box, radio);
+  }
+  for (const scenario::Jammer& jammer : from.jammers) {
+    add_jammer(jammer, from.channel_frequency_hz, radio);
   }
   *radio.mutable_propagation() = propagation_of(from);
   return radio;

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -360,6 +361,50 @@ TEST_CASE("An antenna reaches the radio's configuration") {
   REQUIRE(pattern.antenna_pattern_dbi_size() == 6);
   CHECK(pattern.antenna_pattern_dbi(2) == 3.0);
   CHECK(pattern.antenna_pattern_dbi(5) == 6.5);
+}
+
+TEST_CASE("Obstacles and jammers reach the radio's configuration") {
+  const auto radio = plan_of(R"({"name": "t", "fleet": [{}], "radio": {
+      "propagation": {"model": "paper-eq1", "outer_wall": "15 dB", "inner_wall": "4 dB"},
+      "obstacles": [{"name": "house", "centre": ["40 m", "-3 m"], "size": ["20 m", "10 m", "12 m"],
+                     "heading": "90 deg", "outer_wall": "concrete",
+                     "inner_walls": {"spacing": "4 m", "loss": "3 dB"}},
+                    {"size": ["1 m", "1 m", "1 m"]}],
+      "jammers": [{"name": "noise", "position": ["1 m", "2 m", "3 m"], "power": "33 dBm",
+                   "bandwidth": "5 MHz", "duty": 0.2, "period": "3 ms", "start": "10 s",
+                   "stop": "20 s"},
+                  {"position": ["1 m", "2 m", "3 m"], "frequency": "2.44 GHz"}]}})")
+                         .radio;
+
+  CHECK(radio.propagation().outer_wall_db() == 15.0);
+  CHECK(radio.propagation().inner_wall_db() == 4.0);
+  REQUIRE(radio.obstacles_size() == 2);
+  const auto& house = radio.obstacles(0);
+  CHECK(house.name() == "house");
+  CHECK(house.centre_x_m() == 40.0);
+  CHECK(house.centre_y_m() == -3.0);
+  CHECK(house.size_m().x() == 20.0);
+  CHECK(house.size_m().y() == 10.0);
+  CHECK(house.size_m().z() == 12.0);
+  CHECK(house.heading_rad() == Approx(1.5707963));
+  CHECK(house.outer_wall_db() == 15.0);
+  CHECK(house.inner_spacing_m() == 4.0);
+  CHECK(house.inner_wall_db() == 3.0);
+  CHECK(radio.obstacles(1).outer_wall_db() == 12.0);
+  CHECK(radio.obstacles(1).inner_spacing_m() == 0.0);
+  REQUIRE(radio.jammers_size() == 2);
+  const auto& noise = radio.jammers(0);
+  CHECK(noise.name() == "noise");
+  CHECK(noise.p_wj_m().y() == 2.0);
+  CHECK(noise.power_dbm() == 33.0);
+  CHECK(noise.frequency_hz() == 2.437e9);
+  CHECK(noise.bandwidth_hz() == 5e6);
+  CHECK(noise.duty() == 0.2);
+  CHECK(noise.period_ns() == 3'000'000);
+  CHECK(noise.start_ns() == 10'000'000'000);
+  CHECK(noise.stop_ns() == 20'000'000'000);
+  CHECK(radio.jammers(1).frequency_hz() == 2.44e9);
+  CHECK(radio.jammers(1).stop_ns() == std::numeric_limits<std::int64_t>::max());
 }
 
 TEST_CASE("A disruption reaches the radio's configuration") {

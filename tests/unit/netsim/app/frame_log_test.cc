@@ -65,6 +65,22 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   parameters.channel.fading = "rice";
   parameters.antenna = {.model = "pattern", .pattern_dbi = {1.25, -2.0}, .pattern_azimuths = 1};
   parameters.disruption = {.fraction = 0.4, .phase = DisruptionPhase::kRandom, .seed = 77};
+  parameters.channel.outer_wall = {11.5};
+  parameters.channel.inner_wall = {4.5};
+  parameters.channel.obstacles = {
+      {.shape = {.centre_m = {1.5, -2.0}, .size_m = {10.0, 20.0, 30.0}, .heading_rad = 0.25},
+       .outer_wall = {13.0},
+       .inner_spacing_m = 4.0,
+       .inner_wall = {6.0}},
+      {.shape = {.centre_m = {7.0, 8.0}, .size_m = {1.0, 2.0, 3.0}}}};
+  parameters.jammers = {{.p_WJ = {1.0, 2.0, 3.0},
+                         .power = {33.0},
+                         .band = {.centre_hz = 2.44e9, .width_hz = 5e6},
+                         .duty = 0.3,
+                         .period = Duration{1'234'567},
+                         .start = Duration{1'000'000'001},
+                         .stop = Duration{2'000'000'003}},
+                        {}};
   parameters.channel.k_factor = {3.5};
   parameters.channel.polarisation = Polarisation::kHorizontal;
   parameters.rts_threshold_bytes = 500;
@@ -109,6 +125,28 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.air.disruption.fraction == 0.4);
   CHECK(log.air.disruption.phase == DisruptionPhase::kRandom);
   CHECK(log.air.disruption.seed == 77);
+  CHECK(log.air.channel.outer_wall.value == 11.5);
+  CHECK(log.air.channel.inner_wall.value == 4.5);
+  REQUIRE(log.air.channel.obstacles.size() == 2);
+  const BoxObstacle& box = log.air.channel.obstacles[0];
+  CHECK(box.shape.centre_m == Eigen::Vector2d{1.5, -2.0});
+  CHECK(box.shape.size_m == Eigen::Vector3d{10.0, 20.0, 30.0});
+  CHECK(box.shape.heading_rad == 0.25);
+  CHECK(box.outer_wall.value == 13.0);
+  CHECK(box.inner_spacing_m == 4.0);
+  CHECK(box.inner_wall.value == 6.0);
+  CHECK(log.air.channel.obstacles[1].shape.centre_m.y() == 8.0);
+  REQUIRE(log.air.jammers.size() == 2);
+  const JammerParameters& jammer = log.air.jammers[0];
+  CHECK(jammer.p_WJ == Eigen::Vector3d{1.0, 2.0, 3.0});
+  CHECK(jammer.power.value == 33.0);
+  CHECK(jammer.band.centre_hz == 2.44e9);
+  CHECK(jammer.band.width_hz == 5e6);
+  CHECK(jammer.duty == 0.3);
+  CHECK(jammer.period == Duration{1'234'567});
+  CHECK(jammer.start == Duration{1'000'000'001});
+  CHECK(jammer.stop == Duration{2'000'000'003});
+  CHECK(log.air.jammers[1].stop == Duration::max());
   CHECK(log.air.channel.k_factor == parameters.channel.k_factor);
   CHECK(log.air.channel.k_factor_overhead == parameters.channel.k_factor_overhead);
   CHECK(log.air.channel.polarisation == Polarisation::kHorizontal);
