@@ -113,7 +113,7 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
     : seed_{parameters.seed},
       standard_{&standard_of(parameters.standard, parameters.dsss_preamble)},
       mac_{mac_parameters(parameters, *standard_)},
-      errors_{make_error_model(parameters.error_model)},
+      errors_{make_error_model(parameters.error_model, parameters.more_error_models)},
       receiver_model_{receiver_parameters(parameters, *standard_), *errors_},
       channel_{parameters.channel},
       antenna_{make_antenna(parameters.antenna)},
@@ -148,12 +148,13 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
     rates.draws = {seed_, random::stream_id(kRateStream, node)};
     Station& station = stations_.emplace_back(receiver_model_, node, seed_,
                                               make_rate_control(parameters.rate_control, rates));
-    station.mac =
-        make_mac(parameters.mac, {.node = node,
-                                  .parameters = &mac_,
-                                  .host = this,
-                                  .rates = station.rates.get(),
-                                  .draws = {seed_, random::stream_id(kBackoffStream, node)}});
+    station.mac = make_mac(parameters.mac,
+                           {.node = node,
+                            .parameters = &mac_,
+                            .host = this,
+                            .rates = station.rates.get(),
+                            .draws = {seed_, random::stream_id(kBackoffStream, node)}},
+                           parameters.more_macs);
   }
 }
 

@@ -98,6 +98,8 @@ struct AirParameters {
   std::vector<JammerParameters> jammers{};
   AntennaParameters antenna{};
   std::vector<AirNode> nodes{};
+  std::vector<ErrorModelMaker> more_error_models{};  ///< That `error_model` may name besides ours.
+  std::vector<MacMaker> more_macs{};                 ///< That `mac` may name besides ours.
 };
 
 /// A frame handed to the air.

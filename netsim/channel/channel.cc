@@ -18,13 +18,6 @@ namespace {
 /// Purpose number of the streams of Ψ (see random::stream_id).
 constexpr std::uint16_t kFrameVariationStream = 0x1001;
 
-using Factory = std::unique_ptr<const PathLossModel> (*)(const ChannelParameters&);
-
-struct Entry {
-  std::string_view name;
-  Factory make;
-};
-
 void require(bool holds, const std::string& model, const std::string& rule) {
   if (!holds) {
     throw std::invalid_argument{"propagation model '" + model + "': " + rule};
@@ -89,25 +82,19 @@ std::unique_ptr<const PathLossModel> make_fixed(const ChannelParameters& p) {
 }
 
 /// Every model by name: a new one is a class, a function above and a row here.
-constexpr std::array<Entry, 8> kModels{{{"friis", make_friis},
-                                        {"log-distance", make_log_distance},
-                                        {"two-ray", make_two_ray},
-                                        {"paper-eq1", make_paper_equation_1},
-                                        {"p1411", make_street_canyon},
-                                        {"al-hourani", make_al_hourani},
-                                        {"tr36777", make_tr36777},
-                                        {"fixed", make_fixed}}};
+constexpr std::array<PathLossMaker, 8> kModels{{{"friis", make_friis},
+                                                {"log-distance", make_log_distance},
+                                                {"two-ray", make_two_ray},
+                                                {"paper-eq1", make_paper_equation_1},
+                                                {"p1411", make_street_canyon},
+                                                {"al-hourani", make_al_hourani},
+                                                {"tr36777", make_tr36777},
+                                                {"fixed", make_fixed}}};
 
 std::unique_ptr<const PathLossModel> make_path_loss(const ChannelParameters& parameters) {
-  std::string allowed;
-  for (const Entry& entry : kModels) {
-    if (entry.name == parameters.model) {
-      return entry.make(parameters);
-    }
-    allowed += (allowed.empty() ? "'" : ", '") + std::string{entry.name} + "'";
-  }
-  throw std::invalid_argument{"propagation model '" + parameters.model +
-                              "' is not known; allowed are " + allowed};
+  return find_maker<PathLossMaker>("propagation model", parameters.model, kModels,
+                                   parameters.more_models)
+      .make(parameters);
 }
 
 void require_term(bool holds, const std::string& rule) {
@@ -198,7 +185,7 @@ Channel::Channel(const ChannelParameters& parameters, std::unique_ptr<const Obst
 std::vector<std::string> Channel::model_names() {
   std::vector<std::string> names;
   names.reserve(kModels.size());
-  for (const Entry& entry : kModels) {
+  for (const PathLossMaker& entry : kModels) {
     names.emplace_back(entry.name);
   }
   return names;

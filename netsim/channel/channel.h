@@ -14,6 +14,7 @@
 #include "netsim/channel/path_loss.h"
 #include "netsim/channel/shadowing.h"
 #include "netsim/channel/two_ray.h"
+#include "netsim/makers/maker.h"
 
 namespace cuscus::netsim {
 
@@ -32,6 +33,9 @@ class FrameVariation final {
   std::uint64_t seed_;
   double deviation_db_;
 };
+
+struct ChannelParameters;
+using PathLossMaker = Maker<const PathLossModel, ChannelParameters>;
 
 /// What a scenario says about propagation.
 struct ChannelParameters {
@@ -60,6 +64,7 @@ struct ChannelParameters {
   double nakagami_m{1.0};
   std::vector<BoxObstacle> obstacles{};
   std::uint64_t seed{1};
+  std::vector<PathLossMaker> more_models{};  ///< That `model` may name besides ours.
 };
 
 /// The part of a link's loss that depends on the positions alone, term by term.

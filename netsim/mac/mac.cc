@@ -30,19 +30,15 @@ const Mode& lowest_mode(const Standard& standard, const MacParameters& parameter
                        [&](const Mode& mode) { return mode.mandatory && is_dsss(mode) == dsss; });
 }
 
-struct KnownMac {
-  std::string_view name;
-  std::unique_ptr<Mac> (*make)(const MacSetting& setting);
-};
-
 std::unique_ptr<Mac> make_csma(const MacSetting& s, const AccessProfile& profile) {
   return std::make_unique<Csma>(s.node, *s.parameters, *s.host, *s.rates, s.draws, profile);
 }
 
-const std::array kMacs{
-    KnownMac{"dcf", [](const MacSetting& s) { return make_csma(s, dcf_access(*s.parameters)); }},
-    KnownMac{"edca", [](const MacSetting& s) { return make_csma(s, edca_access(*s.parameters)); }},
-    KnownMac{"tdma",
+/// Every MAC by name: a new one is a class and a row here.
+constexpr std::array kMacs{
+    MacMaker{"dcf", [](const MacSetting& s) { return make_csma(s, dcf_access(*s.parameters)); }},
+    MacMaker{"edca", [](const MacSetting& s) { return make_csma(s, edca_access(*s.parameters)); }},
+    MacMaker{"tdma",
              [](const MacSetting& s) -> std::unique_ptr<Mac> {
                return std::make_unique<Tdma>(s.node, *s.parameters, *s.host);
              }},
@@ -73,15 +69,9 @@ MacParameters MacParameters::from(const Standard& standard, Duration slot,
   return parameters;
 }
 
-std::unique_ptr<Mac> make_mac(std::string_view name, const MacSetting& setting) {
-  std::string known;
-  for (const KnownMac& mac : kMacs) {
-    if (mac.name == name) {
-      return mac.make(setting);
-    }
-    known += (known.empty() ? "'" : ", '") + std::string{mac.name} + "'";
-  }
-  throw std::invalid_argument{"MAC '" + std::string{name} + "' is not known; allowed are " + known};
+std::unique_ptr<Mac> make_mac(std::string_view name, const MacSetting& setting,
+                              std::span<const MacMaker> more) {
+  return find_maker<MacMaker>("MAC", name, kMacs, more).make(setting);
 }
 
 }  // namespace cuscus::netsim

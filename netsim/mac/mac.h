@@ -10,6 +10,7 @@
 #include "common/random/counter_stream.h"
 #include "common/units/sim_time.h"
 #include "netsim/mac/rate_control.h"
+#include "netsim/makers/maker.h"
 #include "netsim/phy/standard.h"
 
 namespace cuscus::netsim {
@@ -160,8 +161,11 @@ struct MacSetting {
   random::CounterStream draws{0, 0};
 };
 
-/// The MAC of that name: "dcf", "edca" or "tdma".
+using MacMaker = Maker<Mac, MacSetting>;
+
+/// The MAC of that name: "dcf", "edca", "tdma", or one of `more`.
 /// @throws std::invalid_argument naming those that exist.
-[[nodiscard]] std::unique_ptr<Mac> make_mac(std::string_view name, const MacSetting& setting);
+[[nodiscard]] std::unique_ptr<Mac> make_mac(std::string_view name, const MacSetting& setting,
+                                            std::span<const MacMaker> more = {});
 
 }  // namespace cuscus::netsim

@@ -91,6 +91,16 @@ double pairwise_error(double bit_error, int d) {
   return sum;
 }
 
+template <typename Model>
+std::unique_ptr<const ErrorModel> make() {
+  return std::make_unique<Model>();
+}
+
+/// Every error model by name: a new one is a class and a row here.
+constexpr std::array<ErrorModelMaker, 3> kErrorModels{{{"nist", make<NistErrorModel>},
+                                                       {"yans", make<YansErrorModel>},
+                                                       {"table", make<LinkErrorModel>}}};
+
 }  // namespace
 
 double NistErrorModel::bit_failure(Modulation modulation, CodeRate code_rate,
@@ -146,18 +156,9 @@ double YansErrorModel::bit_failure(Modulation modulation, CodeRate code_rate,
   return std::min(bound, 1.0);
 }
 
-std::unique_ptr<const ErrorModel> make_error_model(std::string_view name) {
-  if (name == "nist") {
-    return std::make_unique<NistErrorModel>();
-  }
-  if (name == "yans") {
-    return std::make_unique<YansErrorModel>();
-  }
-  if (name == "table") {
-    return std::make_unique<LinkErrorModel>();
-  }
-  throw std::invalid_argument{"error model '" + std::string{name} +
-                              "' is not known; allowed are 'nist', 'yans', 'table'"};
+std::unique_ptr<const ErrorModel> make_error_model(std::string_view name,
+                                                   std::span<const ErrorModelMaker> more) {
+  return find_maker<ErrorModelMaker>("error model", name, kErrorModels, more).make();
 }
 
 double log_success(double bit_failure, double bits) {

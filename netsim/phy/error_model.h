@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "netsim/makers/maker.h"
 #include "netsim/phy/standard.h"
 
 namespace cuscus::netsim {
@@ -73,9 +74,12 @@ class YansErrorModel final : public ErrorModel {
 /// differential in the standard: optimistic by less than 1 dB.
 [[nodiscard]] double dsss_bit_failure(Modulation modulation, double sinr_ratio);
 
-/// The error model of that name.
+using ErrorModelMaker = Maker<const ErrorModel>;
+
+/// The error model of that name: "nist", "yans", "table", or one of `more`.
 /// @throws std::invalid_argument naming those that exist.
-[[nodiscard]] std::unique_ptr<const ErrorModel> make_error_model(std::string_view name);
+[[nodiscard]] std::unique_ptr<const ErrorModel> make_error_model(
+    std::string_view name, std::span<const ErrorModelMaker> more = {});
 
 /// Probability that all of `bits` survive, (1 - p)^bits, as a natural logarithm: logarithms of the
 /// pieces of a frame add.
