@@ -134,17 +134,20 @@ double clearance(const UprightBox& box, const Eigen::Vector3d& p_OA, const Eigen
 }  // namespace
 
 BoxObstacles::BoxObstacles(const std::vector<BoxObstacle>& boxes) {
+  constexpr double kLargest_m = 1e6;
+  constexpr double kLeastSpacing_m = 0.01;
   for (const BoxObstacle& box : boxes) {
     const UprightBox::Parameters& shape = box.shape;
     require_box(shape.centre_m.allFinite() && std::isfinite(shape.heading_rad),
                 "its centre and heading must be finite");
-    require_box(shape.size_m.allFinite() && shape.size_m.minCoeff() > 0.0,
-                "length, width and height must be above 0 m");
+    require_box(shape.size_m.minCoeff() > 0.0 && shape.size_m.maxCoeff() <= kLargest_m,
+                "length, width and height must be above 0 m and at most 1000 km");
     require_box(box.outer_wall.value >= 0.0 && std::isfinite(box.outer_wall.value) &&
                     box.inner_wall.value >= 0.0 && std::isfinite(box.inner_wall.value),
                 "walls must lose at least 0 dB");
-    require_box(box.inner_spacing_m >= 0.0 && std::isfinite(box.inner_spacing_m),
-                "the spacing of inner walls must be at least 0 m (0: none)");
+    require_box(box.inner_spacing_m == 0.0 ||
+                    (box.inner_spacing_m >= kLeastSpacing_m && box.inner_spacing_m <= kLargest_m),
+                "the spacing of inner walls must be 1 cm to 1000 km, or 0 m for none");
     bodies_.push_back({.box = UprightBox{shape},
                        .radius_m = 0.5 * shape.size_m.head<2>().norm(),
                        .outer_wall = box.outer_wall,

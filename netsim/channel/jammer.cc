@@ -25,8 +25,9 @@ Jammer::Jammer(const JammerParameters& parameters) : parameters_{parameters} {
                  "frequency and bandwidth must be above 0 Hz");
   require_jammer(parameters.duty > 0.0 && parameters.duty <= 1.0,
                  "the duty must be above 0 and at most 1");
-  require_jammer(parameters.period >= std::chrono::microseconds{100},
-                 "the period must be at least 100 us");
+  require_jammer(parameters.period >= std::chrono::microseconds{100} &&
+                     parameters.period <= std::chrono::hours{24},
+                 "the period must be 100 us to 24 h");
   require_jammer(
       parameters.start >= SimClock::duration::zero() && parameters.stop > parameters.start,
       "it must start at 0 s or later, and stop after its start");

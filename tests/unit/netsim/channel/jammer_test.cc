@@ -58,7 +58,7 @@ TEST_CASE("a receiver's channel takes the part of a jammer's band that they shar
 TEST_CASE("a wrong jammer is named, with what is allowed") {
   CHECK_THROWS_WITH((Jammer{{.duty = 0.0}}), "jammer: the duty must be above 0 and at most 1");
   CHECK_THROWS_WITH((Jammer{{.period = microseconds{10}}}),
-                    "jammer: the period must be at least 100 us");
+                    "jammer: the period must be 100 us to 24 h");
   CHECK_THROWS_WITH((Jammer{{.start = milliseconds{2}, .stop = milliseconds{2}}}),
                     "jammer: it must start at 0 s or later, and stop after its start");
   CHECK_THROWS_WITH((Jammer{{.band = {.centre_hz = 2.4e9, .width_hz = 0.0}}}),

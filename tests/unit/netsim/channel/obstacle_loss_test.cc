@@ -362,7 +362,7 @@ TEST_CASE("models that draw line of sight do not meet obstacles") {
                       Catch::Contains("stands in for a map and cannot be used with obstacles"));
   }
   CHECK_THROWS_WITH(channel_with({box(0.0, 0.0, {1.0, 0.0, 1.0})}),
-                    "obstacle: length, width and height must be above 0 m");
+                    "obstacle: length, width and height must be above 0 m and at most 1000 km");
 }
 
 }  // namespace
