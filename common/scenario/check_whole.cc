@@ -216,20 +216,28 @@ void check_slot(const Scenario& scenario, const TdmaMac& tdma, std::uint32_t rat
   }
 }
 
+/// A MAC without ACKs has nothing to learn from, and nothing to announce.
+void check_acknowledgement(const Scenario& scenario, Problems& problems) {
+  if (acknowledges(scenario.radio.mac)) {
+    return;
+  }
+  const std::string mac = std::holds_alternative<TdmaMac>(scenario.radio.mac) ? "tdma" : "ideal";
+  if (scenario.radio.rate_control != RateControl::kConstant) {
+    problems.add("/radio/rate_control",
+                 '"' + name_of(kRateControlNames, scenario.radio.rate_control) +
+                     "\" learns from ACKs, and " + mac + " has none; allowed: constant");
+  }
+  if (scenario.radio.rts_threshold_bytes) {
+    problems.add("/radio/rts_threshold", std::to_string(*scenario.radio.rts_threshold_bytes) +
+                                             " announces frames, and " + mac +
+                                             " does not; allowed: none");
+  }
+}
+
 void check_tdma(const Scenario& scenario, Problems& problems) {
   const auto* tdma = std::get_if<TdmaMac>(&scenario.radio.mac);
   if (tdma == nullptr) {
     return;
-  }
-  if (scenario.radio.rate_control != RateControl::kConstant) {
-    problems.add("/radio/rate_control",
-                 '"' + name_of(kRateControlNames, scenario.radio.rate_control) +
-                     "\" learns from ACKs, and tdma has none; allowed: "
-                     "constant");
-  }
-  if (scenario.radio.rts_threshold_bytes) {
-    problems.add("/radio/rts_threshold", std::to_string(*scenario.radio.rts_threshold_bytes) +
-                                             " announces frames, and tdma does not; allowed: none");
   }
   check_slot(scenario, *tdma, scenario.radio.data_rate_kbps, "data_rate", problems);
   if (scenario.radio.group_rate_kbps != scenario.radio.data_rate_kbps) {
@@ -316,6 +324,7 @@ void check_whole(const Scenario& scenario, Problems& problems) {
   check_positions(scenario, problems);
   check_standing(scenario, problems);
   check_placeholders(scenario, problems);
+  check_acknowledgement(scenario, problems);
   check_tdma(scenario, problems);
   check_captures(scenario, problems);
   check_obstacles(scenario, problems);

@@ -68,6 +68,23 @@ EdcaMac read_edca(ObjectReader& reader, RadioStandard standard) {
   return edca;
 }
 
+IdealMac read_ideal(ObjectReader& reader) {
+  IdealMac ideal;
+  ideal.delay = reader.duration("delay", ideal.delay, "0 s", "10 s");
+  ideal.jitter = reader.duration("jitter", ideal.jitter, "0 s", "10 s");
+  if (ideal.jitter > ideal.delay) {
+    reader.problem("jitter", "is longer than the delay, which varies by it; allowed: up to " +
+                                 format_quantity(static_cast<double>(ideal.delay.count()), kTime));
+  }
+  ideal.loss = reader.number("loss", ideal.loss, {0.0, 1.0});
+  const json* range = reader.child("range");
+  if (range != nullptr && *range != "none") {
+    ideal.range_m = read_quantity(*range, reader.path_of("range"), 1.0,
+                                  {kLength, "1 cm", "1000 km"}, reader.problems());
+  }
+  return ideal;
+}
+
 }  // namespace
 
 EdcaMac default_edca(RadioStandard standard) {
@@ -86,7 +103,7 @@ Mac read_mac(const json* value, const std::string& path, RadioStandard standard,
              Problems& problems) {
   ObjectReader reader{value, path, problems};
   Mac mac{DcfMac{}};
-  switch (reader.choice_index("model", {"dcf", "edca", "tdma"})) {
+  switch (reader.choice_index("model", {"dcf", "edca", "tdma", "ideal"})) {
     case 0:
       reader.finish();
       break;
@@ -98,9 +115,13 @@ Mac read_mac(const json* value, const std::string& path, RadioStandard standard,
       mac = read_tdma(reader);
       reader.finish();
       break;
+    case 3:
+      mac = read_ideal(reader);
+      reader.finish();
+      break;
     default:
       if (value != nullptr && value->is_object() && !reader.has("model")) {
-        reader.missing("model", "dcf, edca, tdma");
+        reader.missing("model", "dcf, edca, tdma, ideal");
       } else {
         reader.finish();
       }

@@ -173,7 +173,20 @@ struct TdmaMac {
 };
 inline constexpr std::string_view kNoOwner = "-";
 
-using Mac = std::variant<DcfMac, EdcaMac, TdmaMac>;
+/// No medium at all: rate, delay, loss and range.
+struct IdealMac {
+  Duration delay{0};
+  Duration jitter{0};
+  double loss{0.0};               ///< Probability.
+  std::optional<double> range_m;  ///< Nothing: unlimited.
+};
+
+using Mac = std::variant<DcfMac, EdcaMac, TdmaMac, IdealMac>;
+
+/// Whether receivers confirm what they get.
+[[nodiscard]] inline bool acknowledges(const Mac& mac) {
+  return std::holds_alternative<DcfMac>(mac) || std::holds_alternative<EdcaMac>(mac);
+}
 
 struct IsotropicAntenna {};
 struct DipoleAntenna {};  ///< Half-wave, along the body's z axis.

@@ -120,6 +120,14 @@ Json json_of(const TdmaMac& tdma) {
           {"frame", tdma.frame.empty() ? Json("nodes") : Json(tdma.frame)}};
 }
 
+Json json_of(const IdealMac& ideal) {
+  return {{"model", "ideal"},
+          {"delay", text(ideal.delay)},
+          {"jitter", text(ideal.jitter)},
+          {"loss", ideal.loss},
+          {"range", ideal.range_m ? format_quantity(*ideal.range_m, kLength) : "none"}};
+}
+
 Json json_of(const IsotropicAntenna& /*antenna*/) { return "isotropic"; }
 Json json_of(const DipoleAntenna& /*antenna*/) { return "dipole"; }
 Json json_of(const PatternAntenna& antenna) { return {{"gains", antenna.gains_dBi}}; }

@@ -162,6 +162,11 @@ DecibelMilliwatt Air::noise() const {
   return DecibelMilliwatt::from_milliwatts(receiver_model_.noise_mw());
 }
 
+std::uint32_t Air::queue_places() const {
+  const auto queues = std::max<std::size_t>(1, mac_.edca.size());
+  return mac_.queue_frames * static_cast<std::uint32_t>(queues);
+}
+
 void Air::offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame) {
   assert(node < stations_.size());
   assert(frame.priority < kPriorities);

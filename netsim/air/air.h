@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "netsim/air/air_monitor.h"
+#include "netsim/air/frame_carrier.h"
 #include "netsim/air/jamming.h"
 #include "netsim/air/tally.h"
 #include "netsim/channel/antenna.h"
@@ -61,6 +62,14 @@ struct AirNode {
   Decibel antenna_gain{0.0};  ///< At either end of a link, besides AirParameters::antenna.
 };
 
+/// Of the MAC "ideal", which is an air of its own (IdealAir).
+struct IdealParameters {
+  Duration delay{0};
+  Duration jitter{0};  ///< At most the delay.
+  double loss{0.0};    ///< Probability, 0 ... 1.
+  double range_m{std::numeric_limits<double>::infinity()};
+};
+
 /// What a scenario says about the air.
 struct AirParameters {
   std::uint64_t seed{1};
@@ -80,6 +89,7 @@ struct AirParameters {
   std::string mac{"dcf"};
   TdmaSchedule tdma{};    ///< Of the MAC "tdma".
   EdcaParameters edca{};  ///< Of the MAC "edca"; empty: default_edca() of the standard.
+  IdealParameters ideal{};
   std::uint32_t queue_frames{500};
   Duration queue_lifetime{std::chrono::milliseconds{500}};
   std::string error_model{"nist"};
@@ -145,39 +155,33 @@ class AirListener {
   virtual void finished(const FrameReport& report) = 0;
 };
 
-/// The air of a run: every node's MAC and PHY and the channel between them, as one discrete-event
-/// simulation that its caller drives. No I/O, no clock, no thread; equal inputs give equal outputs.
+/// The air of a run: every node's MAC and PHY and the channel between them.
 ///
 /// A transmission is five sweeps over the nodes that it reaches, in the order of their distance:
 /// energy begins, preamble detected, SIGNAL field over, energy ends, PPDU over. A sweep is
 /// interrupted wherever another event comes first, so the order of events is exact, and costs one
 /// entry in the event queue where it is not.
-class Air final : private MacHost {
+class Air final : public FrameCarrier, private MacHost {
  public:
   /// `positions`, `listener` and `monitor`, if any, must outlive this object.
   /// @throws std::invalid_argument naming what is wrong and what is allowed.
   Air(const AirParameters& parameters, PositionSource& positions, AirListener& listener,
       AirMonitor* monitor = nullptr);
 
-  /// A program on `node` sent a frame at `sent_at`; when that is before now(), it counts as now().
-  void offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame);
-
-  /// Runs one step if the first event is due by `limit`; false when it is not.
-  bool run_next(SimTime limit);
-  /// Runs all events up to and including `limit`, which becomes now().
-  void run_until(SimTime limit);
-
-  /// Of the latest event.
-  [[nodiscard]] SimTime now() const { return now_; }
-  [[nodiscard]] std::optional<SimTime> next_event() const;
-  /// No frame can be delivered before this, whatever is offered from now on is aside.
-  [[nodiscard]] std::optional<SimTime> next_delivery_bound() const;
-
-  [[nodiscard]] std::uint32_t node_count() const {
+  void offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame) override;
+  bool run_next(SimTime limit) override;
+  void run_until(SimTime limit) override;
+  [[nodiscard]] SimTime now() const override { return now_; }
+  [[nodiscard]] std::optional<SimTime> next_event() const override;
+  [[nodiscard]] std::optional<SimTime> next_delivery_bound() const override;
+  [[nodiscard]] std::uint32_t node_count() const override {
     return static_cast<std::uint32_t>(stations_.size());
   }
-  [[nodiscard]] const Tally& tally(std::uint32_t node) const { return stations_[node].tally; }
-  [[nodiscard]] std::uint64_t events() const { return events_; }
+  [[nodiscard]] std::uint32_t queue_places() const override;
+  [[nodiscard]] const Tally& tally(std::uint32_t node) const override {
+    return stations_[node].tally;
+  }
+  [[nodiscard]] std::uint64_t events() const override { return events_; }
   [[nodiscard]] const MacParameters& mac() const { return mac_; }
   [[nodiscard]] DecibelMilliwatt noise() const;
 

@@ -34,6 +34,8 @@ struct Options {
   bool short_preamble{false};
   double slot_us{0.0};
   std::vector<unsigned> priorities{0};
+  double ideal_delay_ms{0.0};
+  double ideal_jitter_ms{0.0};
   double tdma_slot_ms{2.5};
   double tdma_guard_us{10.0};
   double carrier_ghz{2.412};
@@ -93,11 +95,21 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::IsMember({"constant", "ideal", "aarf", "minstrel"}))
       ->capture_default_str();
   app.add_option("--mac", o.run.air.mac, "Medium access")
-      ->check(CLI::IsMember({"dcf", "edca", "tdma"}))
+      ->check(CLI::IsMember({"dcf", "edca", "tdma", "ideal"}))
       ->capture_default_str();
   app.add_option("--priorities", o.priorities, "User priorities of the senders in turn, 0 ... 7")
       ->check(CLI::Range(0, 7))
       ->capture_default_str();
+  app.add_option("--ideal-delay", o.ideal_delay_ms, "[ms]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--ideal-jitter", o.ideal_jitter_ms, "Either way [ms]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  app.add_option("--ideal-loss", o.run.air.ideal.loss, "Probability")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  app.add_option("--ideal-range", o.run.air.ideal.range_m, "[m]")->check(CLI::PositiveNumber);
   app.add_option("--tdma-slot", o.tdma_slot_ms, "One for every node in turn [ms]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -158,6 +170,8 @@ void apply(Options& o) {
   air.dsss_preamble = o.short_preamble ? DsssPreamble::kShort : DsssPreamble::kLong;
   air.slot = nanoseconds(o.slot_us * 1e-6);
   o.run.traffic.priorities.assign(o.priorities.begin(), o.priorities.end());
+  air.ideal.delay = nanoseconds(o.ideal_delay_ms * 1e-3);
+  air.ideal.jitter = nanoseconds(o.ideal_jitter_ms * 1e-3);
   air.tdma.slot = nanoseconds(o.tdma_slot_ms * 1e-3);
   air.tdma.guard = nanoseconds(o.tdma_guard_us * 1e-6);
   air.channel.carrier_hz = o.carrier_ghz * 1e9;

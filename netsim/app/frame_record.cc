@@ -210,6 +210,10 @@ void for_each_common(Parameters& p, const Field& field) {
   field("tdma_guard_ns", p.tdma.guard);
   field("tdma_frame", p.tdma.frame);
   field("edca", p.edca);
+  field("ideal_delay_ns", p.ideal.delay);
+  field("ideal_jitter_ns", p.ideal.jitter);
+  field("ideal_loss", p.ideal.loss);
+  field("ideal_range_m", p.ideal.range_m);
   field("queue_frames", p.queue_frames);
   field("queue_lifetime_ns", p.queue_lifetime);
   field("error_model", p.error_model);

@@ -17,6 +17,7 @@
 #include "common/posix/monotonic_clock.h"
 #include "common/posix/resource_usage.h"
 #include "common/posix/scheduling.h"
+#include "netsim/air/ideal_air.h"
 
 namespace cuscus::netsim {
 namespace {
@@ -74,14 +75,14 @@ void relax() {
 LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
     : stamps_{std::move(setup.stamps)},
       log_{std::move(setup.log)},
-      air_{setup.air, positions, *this, &monitors_},
+      air_{make_air(setup.air, positions, *this, &monitors_)},
       wake_{make_epoll()},
       taps_{make_epoll()},
       buffer_(TapPort::kBufferBytes) {
-  if (setup.addresses.size() != air_.node_count() || setup.taps.size() != air_.node_count()) {
+  if (setup.addresses.size() != air_->node_count() || setup.taps.size() != air_->node_count()) {
     throw std::invalid_argument{"radio: every node needs an address and a TAP"};
   }
-  for (std::uint32_t node = 0; node < air_.node_count(); ++node) {
+  for (std::uint32_t node = 0; node < air_->node_count(); ++node) {
     if (!addresses_.add(setup.addresses[node], node)) {
       throw std::invalid_argument{"radio: node " + std::to_string(node) +
                                   " has the address of another"};
@@ -92,7 +93,7 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
     }
   }
   if (!setup.radio_memory.empty()) {
-    radio_memory_.emplace(setup.radio_memory, air_.node_count());
+    radio_memory_.emplace(setup.radio_memory, air_->node_count());
     link_counts_.emplace(*radio_memory_);
     monitors_.add(*link_counts_);
   }
@@ -128,7 +129,7 @@ void LiveAir::run(std::int64_t start_monotonic_ns, LiveOwner& owner) {
     step(owner);
   }
   posix::check("epoll_ctl", ::epoll_ctl(wake_.get(), EPOLL_CTL_DEL, owner.fd(), nullptr));
-  publish(0, air_.node_count());
+  publish(0, air_->node_count());
   publish_timing();
   cpu_s_ = posix::process_cpu_s();
   close_logs();
@@ -198,22 +199,22 @@ void LiveAir::run_due_events() {
     const SimTime limit = sim_time(now_ns());
     drain_stamps();
     while (stamps_ && stamps_->reader().blocked() && now_ns() < patience_ns &&
-           air_.next_event().value_or(SimTime::max()) <= limit) {
+           air_->next_event().value_or(SimTime::max()) <= limit) {
       relax();
       drain_stamps();
     }
-    if (!air_.run_next(limit)) {
+    if (!air_->run_next(limit)) {
       return;
     }
   }
 }
 
 void LiveAir::wait(LiveOwner& owner, std::int64_t now) {
-  if (const auto next = air_.next_event(); next && to_ns(*next) <= now) {
+  if (const auto next = air_->next_event(); next && to_ns(*next) <= now) {
     return;
   }
   std::int64_t spin_from = housekeep_at_;
-  if (const auto bound = air_.next_delivery_bound()) {
+  if (const auto bound = air_->next_delivery_bound()) {
     const std::int64_t spin = now - slept_at_ > kLongSpin_ns ? kShortSpin_ns : kSpin_ns;
     spin_from = std::min(spin_from, to_ns(*bound) - spin);
   }
@@ -350,9 +351,10 @@ void LiveAir::housekeep(LiveOwner& owner, std::int64_t now) {
     service_taps();  // frames that no stamp announced
     give_up_lost_frames(now);
   }
-  const std::uint32_t slice = (air_.node_count() + kTicksPerPublication - 1) / kTicksPerPublication;
+  const std::uint32_t slice =
+      (air_->node_count() + kTicksPerPublication - 1) / kTicksPerPublication;
   publish(publish_next_, slice);
-  publish_next_ = publish_next_ + slice >= air_.node_count() ? 0 : publish_next_ + slice;
+  publish_next_ = publish_next_ + slice >= air_->node_count() ? 0 : publish_next_ + slice;
   if (++ticks_ % kTicksPerPublication == 0) {
     publish_timing();
   }
@@ -364,7 +366,7 @@ void LiveAir::housekeep(LiveOwner& owner, std::int64_t now) {
 }
 
 shm::RadioTally LiveAir::tally(std::uint32_t node) const {
-  const Tally& air = air_.tally(node);
+  const Tally& air = air_->tally(node);
   const Port& port = ports_[node];
   return {.offered = air.offered + port.malformed + port.refused,
           .transmissions = air.transmissions,
@@ -390,7 +392,7 @@ void LiveAir::publish(std::uint32_t first, std::uint32_t count) {
   if (!radio_memory_) {
     return;
   }
-  const std::uint32_t end = std::min(first + count, air_.node_count());
+  const std::uint32_t end = std::min(first + count, air_->node_count());
   for (std::uint32_t node = first; node < end; ++node) {
     radio_memory_->publish(node, tally(node));
   }
@@ -405,8 +407,8 @@ void LiveAir::publish_timing() {
                           .release_lateness_max_ns = release_lateness_.max_ns(),
                           .releases = release_lateness_.count(),
                           .clamps = clamp_.count(),
-                          .events = air_.events()});
-  radio_memory_->beat(to_ns(air_.now()));
+                          .events = air_->events()});
+  radio_memory_->beat(to_ns(air_->now()));
 }
 
 proto::RadioReport LiveAir::report() const {
@@ -417,7 +419,7 @@ proto::RadioReport LiveAir::report() const {
   *report.mutable_release_lateness() = ipc::summary_of(release_lateness_);
   report.set_clamps(clamp_.count());
   *report.mutable_clamp() = ipc::summary_of(clamp_);
-  report.set_events(air_.events());
+  report.set_events(air_->events());
   report.set_cpu_s(cpu_s_);
   std::uint64_t before_air = 0;
   for (const Port& port : ports_) {

@@ -120,7 +120,7 @@ class LiveAir final : private AirListener {
   std::optional<ReceptionLog> receptions_;
   std::optional<PpduRecorder> recorder_;  ///< When there are captures.
   AirMonitors monitors_;
-  Air air_;
+  std::unique_ptr<FrameCarrier> air_;
   posix::UniqueFd wake_;  ///< epoll: owner and stamps, or owner and TAPs.
   posix::UniqueFd taps_;  ///< epoll: all TAPs.
 

@@ -65,7 +65,7 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
   const std::int32_t to = addressed == static_cast<std::int32_t>(live.node) ? kNobody : addressed;
   ingress_delay_.add(entered_ns - live.sent_ns);
   Port& port = ports_[live.node];
-  if (++port.outstanding > air_.mac().queue_frames + kBeyondQueue) {
+  if (++port.outstanding > air_->queue_places() + kBeyondQueue) {
     ++port.refused;
     finished({.id = frames_.id_of(frame),
               .sender = live.node,
@@ -76,14 +76,14 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
               .outcome = SendOutcome::kQueueFull});
     return;
   }
-  if (live.sent_ns < to_ns(air_.now())) {
-    clamp_.add(to_ns(air_.now()) - live.sent_ns);
+  if (live.sent_ns < to_ns(air_->now())) {
+    clamp_.add(to_ns(air_->now()) - live.sent_ns);
   }
-  air_.offer(live.node, sim_time(live.sent_ns),
-             {.id = frames_.id_of(frame),
-              .destination = to,
-              .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
-              .priority = parsed->priority});
+  air_->offer(live.node, sim_time(live.sent_ns),
+              {.id = frames_.id_of(frame),
+               .destination = to,
+               .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
+               .priority = parsed->priority});
 }
 
 /// Reads every TAP that has something, a bounded number of frames each; false when none had.

@@ -62,6 +62,12 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
     air.edca.push_back(
         {.aifsn = category.aifsn(), .cw_min = category.cw_min(), .cw_max = category.cw_max()});
   }
+  if (c.has_ideal()) {
+    air.ideal = {.delay = Duration{c.ideal().delay_ns()},
+                 .jitter = Duration{c.ideal().jitter_ns()},
+                 .loss = c.ideal().loss(),
+                 .range_m = c.ideal().range_m()};
+  }
   air.queue_frames = c.queue_frames();
   air.queue_lifetime = Duration{c.queue_lifetime_ns()};
   air.error_model = c.error_model();

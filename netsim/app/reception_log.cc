@@ -111,7 +111,8 @@ bool is_meant_for(const Ppdu& ppdu, std::uint32_t receiver) {
 
 ReceptionLog::ReceptionLog(posix::UniqueFd file, const AirParameters& parameters,
                            std::span<const std::string> names, PositionSource& positions)
-    : channel_{parameters.channel},
+    : ideal_{parameters.mac == "ideal"},
+      channel_{parameters.channel},
       antenna_{make_antenna(parameters.antenna)},
       radios_{parameters.nodes},
       positions_{&positions},
@@ -134,6 +135,11 @@ void ReceptionLog::transmitted(const Ppdu& ppdu) {
 
 logs::LinkBudget ReceptionLog::budget(const Ppdu& ppdu, std::uint32_t receiver) const {
   const std::uint32_t sender = ppdu.frame.sender;
+  if (ideal_) {
+    logs::LinkBudget budget{};
+    budget.tx_power_dbm = static_cast<float>(radios_[sender].tx_power.value);
+    return budget;
+  }
   const auto& poses = poses_[ppdu.positions_version % kKeptVersions].nodes;
   const Link link = Link::between(sender, poses[sender].p_WB, receiver, poses[receiver].p_WB);
   const StaticTerms terms = channel_.static_terms(link);

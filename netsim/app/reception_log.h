@@ -57,6 +57,7 @@ class ReceptionLog final : public AirMonitor {
 
   [[nodiscard]] logs::LinkBudget budget(const Ppdu& ppdu, std::uint32_t receiver) const;
 
+  bool ideal_;  ///< There is no channel: what is received has the sender's power.
   Channel channel_;
   std::unique_ptr<const Antenna> antenna_;  ///< Nothing: isotropic.
   std::vector<AirNode> radios_;

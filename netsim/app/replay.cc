@@ -6,6 +6,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "netsim/air/ideal_air.h"
+
 namespace cuscus::netsim {
 namespace {
 
@@ -137,23 +139,23 @@ ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power) {
   ReplayResult result;
   Sum sum{result};
   RecordedPositions positions{log.positions, parameters.nodes.size()};
-  Air simulated{parameters, positions, sum};
+  const auto simulated = make_air(parameters, positions, sum);
   std::int64_t last_ns = 0;
   for (const FrameRecord& frame : log.frames) {
     // The simulation is kept just behind the sends, so that its queue stays short.
-    simulated.run_until(sim_time(std::max<std::int64_t>(0, frame.sent_ns - 1)));
-    simulated.offer(frame.node, sim_time(frame.sent_ns),
-                    {.id = 0,
-                     .destination = frame.destination,
-                     .psdu_bytes = psdu_bytes_of_ethernet(frame.frame_bytes),
-                     .priority = frame.priority});
+    simulated->run_until(sim_time(std::max<std::int64_t>(0, frame.sent_ns - 1)));
+    simulated->offer(frame.node, sim_time(frame.sent_ns),
+                     {.id = 0,
+                      .destination = frame.destination,
+                      .psdu_bytes = psdu_bytes_of_ethernet(frame.frame_bytes),
+                      .priority = frame.priority});
     last_ns = frame.sent_ns;
     add(frame.destination == kGroup ? result.group.live : result.individual.live, frame.sent_ns,
         frame.attempts, frame.deliveries, frame.first_delivery_ns);
   }
-  simulated.run_until(sim_time(last_ns) + std::chrono::seconds{10});
-  for (std::uint32_t node = 0; node < simulated.node_count(); ++node) {
-    result.tallies.push_back(simulated.tally(node));
+  simulated->run_until(sim_time(last_ns) + std::chrono::seconds{10});
+  for (std::uint32_t node = 0; node < simulated->node_count(); ++node) {
+    result.tallies.push_back(simulated->tally(node));
   }
   return result;
 }

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "netsim/air/ideal_air.h"
+
 namespace cuscus::netsim {
 namespace {
 
@@ -45,7 +47,7 @@ class Run final : public AirListener {
         nodes_{parameters.traffic.to_sink ? parameters.senders + 1
                                           : std::max(parameters.senders, 2U)},
         positions_{positions_of(parameters.layout, nodes_)},
-        air_{with_nodes(parameters, nodes_), positions_, *this},
+        air_{make_air(with_nodes(parameters, nodes_), positions_, *this)},
         measured_from_{SimTime{} + parameters.warm_up},
         until_{measured_from_ + parameters.duration},
         delivered_(nodes_, 0),
@@ -69,7 +71,7 @@ class Run final : public AirListener {
           break;
       }
     }
-    air_.run_until(until_);
+    air_->run_until(until_);
     return result();
   }
 
@@ -100,7 +102,7 @@ class Run final : public AirListener {
     }
     switch (parameters_.traffic.kind) {
       case Traffic::Kind::kSaturated:
-        offer(report.sender, air_.now());
+        offer(report.sender, air_->now());
         break;
       case Traffic::Kind::kBeacons:
         offer_next_beacon(report.sender);
@@ -108,7 +110,7 @@ class Run final : public AirListener {
       case Traffic::Kind::kFlow:
       case Traffic::Kind::kPing:
         if (report.sender == 0) {
-          offer(0, std::max(air_.now(), report.sent_at + parameters_.traffic.period));
+          offer(0, std::max(air_->now(), report.sent_at + parameters_.traffic.period));
         }
         break;
     }
@@ -140,11 +142,11 @@ class Run final : public AirListener {
     if (!traffic.group || traffic.kind == Traffic::Kind::kPing) {
       destination = static_cast<std::int32_t>(traffic.to_sink ? nodes_ - 1 : (node + 1) % nodes_);
     }
-    air_.offer(node, at,
-               {.id = static_cast<std::uint64_t>(id),
-                .destination = destination,
-                .psdu_bytes = psdu_bytes_of_udp(traffic.udp_payload_bytes),
-                .priority = traffic.priorities[node % traffic.priorities.size()]});
+    air_->offer(node, at,
+                {.id = static_cast<std::uint64_t>(id),
+                 .destination = destination,
+                 .psdu_bytes = psdu_bytes_of_udp(traffic.udp_payload_bytes),
+                 .priority = traffic.priorities[node % traffic.priorities.size()]});
   }
 
   void offer_next_beacon(std::uint32_t node) {
@@ -199,9 +201,9 @@ class Run final : public AirListener {
         ratio(std::accumulate(round_trips_us_.begin(), round_trips_us_.end(), 0.0),
               static_cast<double>(round_trips_us_.size()));
     result.receptions = receptions_;
-    result.events = air_.events();
+    result.events = air_->events();
     for (std::uint32_t node = 0; node < nodes_; ++node) {
-      result.tallies.push_back(air_.tally(node));
+      result.tallies.push_back(air_->tally(node));
     }
     return result;
   }
@@ -209,7 +211,7 @@ class Run final : public AirListener {
   const SyntheticParameters& parameters_;
   std::uint32_t nodes_;
   FixedPositions positions_;
-  Air air_;
+  std::unique_ptr<FrameCarrier> air_;
   SimTime measured_from_;
   SimTime until_;
   std::vector<std::uint64_t> delivered_;

@@ -40,9 +40,9 @@ double sifs_s(scenario::RadioStandard standard) {
 }
 
 /// DIFS and the mean of the first backoff, of 0 ... 15 slots (802.11b: 31), or those of EDCA's best
-/// effort; TDMA has neither.
+/// effort; TDMA and the ideal air have neither.
 double contention_s(const scenario::Radio& radio) {
-  if (std::holds_alternative<scenario::TdmaMac>(radio.mac)) {
+  if (!acknowledges(radio.mac)) {
     return 0.0;
   }
   if (const auto* edca = std::get_if<scenario::EdcaMac>(&radio.mac)) {
@@ -57,7 +57,7 @@ double contention_s(const scenario::Radio& radio) {
 double announcement_s(const scenario::Radio& radio, std::uint32_t ip_bytes) {
   constexpr std::uint32_t kRts_bytes = 20;
   constexpr std::uint32_t kCts_bytes = 14;
-  if (std::holds_alternative<scenario::TdmaMac>(radio.mac) || !radio.rts_threshold_bytes ||
+  if (!acknowledges(radio.mac) || !radio.rts_threshold_bytes ||
       psdu_bytes(radio, ip_bytes) <= *radio.rts_threshold_bytes) {
     return 0.0;
   }
@@ -72,8 +72,7 @@ CapacityEstimate estimate_capacity(const scenario::Scenario& scenario) {
   const double others = scenario.node_count() - 1.0;
   const scenario::Radio& radio = scenario.radio;
   constexpr std::uint32_t kAck_bytes = 14;
-  const bool acknowledges = !std::holds_alternative<scenario::TdmaMac>(radio.mac);
-  const double ack_s = acknowledges
+  const double ack_s = acknowledges(radio.mac)
                            ? sifs_s(radio.standard) +
                                  psdu_airtime_s(radio, kAck_bytes, radio.basic_rates_kbps.front())
                            : 0.0;

@@ -56,6 +56,13 @@ void add_mac(const scenario::Mac& from, proto::RadioConfiguration& result) {
          {edca->background, edca->best_effort, edca->video, edca->voice}) {
       add_category(category, *result.mutable_edca());
     }
+  } else if (const auto* ideal = std::get_if<scenario::IdealMac>(&from)) {
+    result.set_mac("ideal");
+    result.mutable_ideal()->set_delay_ns(ideal->delay.count());
+    result.mutable_ideal()->set_jitter_ns(ideal->jitter.count());
+    result.mutable_ideal()->set_loss(ideal->loss);
+    result.mutable_ideal()->set_range_m(
+        ideal->range_m.value_or(std::numeric_limits<double>::infinity()));
   } else {
     result.set_mac("dcf");
   }

@@ -324,6 +324,21 @@ TEST_CASE("EDCA's categories reach the radio in order, with the standard's value
   CHECK_FALSE(edca_of("{}").has_edca());
 }
 
+TEST_CASE("An ideal air reaches the radio's configuration") {
+  const auto ideal_of = [](const std::string& mac) {
+    return plan_of(R"({"name": "t", "fleet": [{}], "radio": {"mac": )" + mac + "}}").radio;
+  };
+
+  const proto::RadioConfiguration radio = ideal_of(
+      R"({"model": "ideal", "delay": "2 ms", "jitter": "1 ms", "loss": 0.25, "range": "300 m"})");
+  CHECK(radio.mac() == "ideal");
+  CHECK(radio.ideal().delay_ns() == 2'000'000);
+  CHECK(radio.ideal().jitter_ns() == 1'000'000);
+  CHECK(radio.ideal().loss() == 0.25);
+  CHECK(radio.ideal().range_m() == 300.0);
+  CHECK(std::isinf(ideal_of(R"({"model": "ideal"})").ideal().range_m()));
+}
+
 TEST_CASE("The estimate of an EDCA air has the AIFS of best effort and the longer header") {
   const auto busy = [](const std::string& radio) {
     return plan_of(R"({"name": "t", "fleet": [{"count": 10}], "radio": )" + radio + "}")

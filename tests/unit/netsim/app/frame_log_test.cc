@@ -62,6 +62,7 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   parameters.tdma = {
       .slot = Duration{3'000'000}, .guard = Duration{7'000}, .frame = {2, kNobody, 0}};
   parameters.edca = {{7, 15, 1023}, {3, 15, 1023}, {2, 7, 15}, {2, 3, 7}};
+  parameters.ideal = {.delay = Duration{5}, .jitter = Duration{4}, .loss = 0.5, .range_m = 99.5};
   parameters.channel.fading = "rice";
   parameters.antenna = {.model = "pattern", .pattern_dbi = {1.25, -2.0}, .pattern_azimuths = 1};
   parameters.disruption = {.fraction = 0.4, .phase = DisruptionPhase::kRandom, .seed = 77};
@@ -118,6 +119,10 @@ TEST_CASE("a frame log is read back as it was written, in the order of the sends
   CHECK(log.air.tdma.guard == parameters.tdma.guard);
   CHECK(log.air.tdma.frame == parameters.tdma.frame);
   CHECK(log.air.edca == parameters.edca);
+  CHECK(log.air.ideal.delay == Duration{5});
+  CHECK(log.air.ideal.jitter == Duration{4});
+  CHECK(log.air.ideal.loss == 0.5);
+  CHECK(log.air.ideal.range_m == 99.5);
   CHECK(log.air.channel.fading == "rice");
   CHECK(log.air.antenna.model == "pattern");
   CHECK(log.air.antenna.pattern_dbi == std::vector<double>{1.25, -2.0});

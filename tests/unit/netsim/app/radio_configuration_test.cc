@@ -39,6 +39,10 @@ TEST_CASE("every setting of the radio arrives in its own place") {
     category->set_cw_min(7);
     category->set_cw_max(63);
   }
+  c.mutable_ideal()->set_delay_ns(4'000);
+  c.mutable_ideal()->set_jitter_ns(3'000);
+  c.mutable_ideal()->set_loss(0.125);
+  c.mutable_ideal()->set_range_m(250.0);
   c.set_queue_frames(10);
   c.set_queue_lifetime_ns(1'000);
   c.set_error_model("yans");
@@ -121,6 +125,10 @@ TEST_CASE("every setting of the radio arrives in its own place") {
   CHECK(air.tdma.guard == Duration{7'000});
   CHECK(air.tdma.frame == std::vector<std::int32_t>{0, kNobody});
   CHECK(air.edca == EdcaParameters{{9, 7, 63}, {6, 7, 63}, {3, 7, 63}, {2, 7, 63}});
+  CHECK(air.ideal.delay == Duration{4'000});
+  CHECK(air.ideal.jitter == Duration{3'000});
+  CHECK(air.ideal.loss == 0.125);
+  CHECK(air.ideal.range_m == 250.0);
   CHECK(air.queue_frames == 10);
   CHECK(air.queue_lifetime == Duration{1'000});
   CHECK(air.error_model == "yans");
