@@ -14,15 +14,15 @@
 namespace cuscus::netsim {
 namespace {
 
-constexpr double kCarrier_hz = 2.437e9;
-constexpr double kWavelength_m = kSpeedOfLight_mps / kCarrier_hz;
+constexpr double kTownCarrier_hz = 2.437e9;
+constexpr double kWavelength_m = kSpeedOfLight_mps / kTownCarrier_hz;
 
 BoxObstacle box(double x_m, double y_m, const Eigen::Vector3d& size_m, double wall_db = 12.0) {
   return {.shape = {.centre_m = {x_m, y_m}, .size_m = size_m}, .outer_wall = {wall_db}};
 }
 
 Channel channel_with(const std::vector<BoxObstacle>& boxes, const std::string& model = "friis") {
-  return Channel{{.model = model, .carrier_hz = kCarrier_hz, .obstacles = boxes}};
+  return Channel{{.model = model, .carrier_hz = kTownCarrier_hz, .obstacles = boxes}};
 }
 
 Decibel obstacle_loss(const Channel& channel, const Eigen::Vector3d& p_WA,
@@ -282,13 +282,13 @@ TEST_CASE("walls are counted as a walk along the ray counts them") {
       const Eigen::Vector3d p_W = p_WA + (p_WB - p_WA) * (static_cast<double>(sample) / kSamples);
       const std::vector<bool> is_inside = inside(boxes, p_W);
       for (std::size_t b = 0; b < boxes.size(); ++b) {
-        walked.outer += is_inside[b] != was_inside[b] ? 1 : 0;
+        walked.outer += is_inside[b] != was_inside[b] ? 1U : 0U;
         const Eigen::Rotation2D<double> turned_back{-boxes[b].shape.heading_rad};
         const Eigen::Vector2d p_m = turned_back * (p_W.head<2>() - boxes[b].shape.centre_m);
         for (Eigen::Index axis = 0; axis < 2; ++axis) {
           const double room = std::floor((p_m[axis] + 0.5 * boxes[b].shape.size_m[axis]) / 4.0);
           double& last = rooms[b][static_cast<std::size_t>(axis)];
-          walked.inner += sample > 0 && is_inside[b] && was_inside[b] && room != last ? 1 : 0;
+          walked.inner += sample > 0 && is_inside[b] && was_inside[b] && room != last ? 1U : 0U;
           last = room;
         }
       }
@@ -325,7 +325,7 @@ TEST_CASE("equation 1 of the paper with walls is reproduced to the last bit") {
   std::vector<BoxObstacle> boxes = town();
   const double alpha = GENERATE(20.0, 27.3, 40.0);
   const Channel channel{{.model = "paper-eq1",
-                         .carrier_hz = kCarrier_hz,
+                         .carrier_hz = kTownCarrier_hz,
                          .alpha = alpha,
                          .outer_wall = {12.3},
                          .inner_wall = {3.7},
@@ -347,7 +347,7 @@ TEST_CASE("equation 1 of the paper with walls is reproduced to the last bit") {
     }
     const double d_ij = (p_WB - p_WA).norm();
     const double expected_db = alpha * std::log10(d_ij / 1000.0) +
-                               alpha * std::log10(kCarrier_hz / 1e9) + 92.45 + n_W * 12.3 +
+                               alpha * std::log10(kTownCarrier_hz / 1e9) + 92.45 + n_W * 12.3 +
                                n_w * 3.7;
 
     CHECK(channel.static_loss(Link::between(0, p_WA, 1, p_WB)).value == expected_db);
