@@ -29,6 +29,7 @@ ALLOWED |= {
     "netsim/mac": PURE | {"netsim/phy", "netsim/kernel"},
     "netsim/kernel": PURE,
     "netsim/air": PURE | {"netsim/kernel", "netsim/channel", "netsim/phy", "netsim/mac"},
+    "netsim/capture": PURE | {"netsim/phy", "netsim/mac", "netsim/air"},
     "uav-agent/flight": PURE,
     "uav-agent/missions": PURE | {"uav-agent/flight"},
     "uav-agent/air": PURE | {"proto", "uav-agent/flight", "uav-agent/missions"},

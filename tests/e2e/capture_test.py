@@ -56,7 +56,7 @@ def of_kind(found, kind):
 def payloads(found, words):
     """Which of the datagrams of so many words of 4 B are there, whole."""
     return {int(packet["udp.payload"][:8], 16) for packet in found
-            if packet["udp.payload"] == packet["udp.payload"][:8] * words}
+            if packet["udp.payload"] and packet["udp.payload"] == packet["udp.payload"][:8] * words}
 
 
 class Captures(unittest.TestCase):
