@@ -34,6 +34,7 @@ Network read_network(const json* value, Problems& problems) {
   const std::uint32_t least_mtu = network.ipv6 ? 1280 : 576;
   network.mtu_bytes = reader.integer<std::uint32_t>("mtu", network.mtu_bytes, {least_mtu, 1500});
   network.hosts = reader.boolean("hosts", network.hosts);
+  network.monitor = reader.boolean("monitor", network.monitor);
   reader.finish();
   return network;
 }

@@ -262,7 +262,8 @@ struct Network {
   AddressResolution neighbours{AddressResolution::kStatic};
   bool ipv6{false};
   std::uint32_t mtu_bytes{1500};
-  bool hosts{true};  ///< Every node finds the others by name.
+  bool hosts{true};     ///< Every node finds the others by name.
+  bool monitor{false};  ///< mon0 is up from the start.
 };
 
 struct World {

@@ -36,9 +36,9 @@ class CaptureFiles {
   /// When SimTime 0 is [ns since 1970]; before anything is added.
   void start(std::int64_t realtime_ns) { start_realtime_ns_ = realtime_ns; }
 
-  [[nodiscard]] bool wants(const PpduRecord& record) const {
-    return files_[record.node].fd &&
-           (!record.failed() || (failed_ && fails_by_fcs(record.reception.cause)));
+  /// Whether a PPDU at that node belongs into a capture; `cause`: kNone for its own.
+  [[nodiscard]] bool wants(std::uint32_t node, LossCause cause) const {
+    return files_[node].fd && (cause == LossCause::kNone || (failed_ && fails_by_fcs(cause)));
   }
 
   // From one thread. What finds no room, or has no payload, is counted and left out.

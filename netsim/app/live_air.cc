@@ -97,8 +97,8 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
     link_counts_.emplace(*radio_memory_);
     monitors_.add(*link_counts_);
   }
-  if (setup.captures) {
-    recorder_.emplace(frames_, std::move(setup.captures));
+  if (setup.captures || setup.monitors) {
+    recorder_.emplace(frames_, std::move(setup.captures), std::move(setup.monitors));
     monitors_.add(*recorder_);
   }
   if (setup.reception_log) {
@@ -116,7 +116,7 @@ std::int64_t LiveAir::now_ns() const { return posix::monotonic_now_ns() - start_
 
 void LiveAir::run(std::int64_t start_monotonic_ns, LiveOwner& owner) {
   start_ns_ = start_monotonic_ns;
-  if (recorder_) {
+  if (recorder_ && recorder_->captures() != nullptr) {
     recorder_->captures()->start(posix::realtime_now_ns() - now_ns());
   }
   watch(wake_, owner.fd(), static_cast<std::uint32_t>(Wake::kOwner));
@@ -147,7 +147,9 @@ void LiveAir::close_logs() {
   warn("reception log", receptions_not_logged_);
   if (recorder_) {
     recorder_->finish();
-    warn("captures", recorder_->captures()->packets_left_out());
+    if (recorder_->captures() != nullptr) {
+      warn("captures", recorder_->captures()->packets_left_out());
+    }
   }
 }
 
@@ -429,9 +431,13 @@ proto::RadioReport LiveAir::report() const {
   report.set_unstamped(unstamped_);
   report.set_frames_not_logged(not_logged_);
   report.set_receptions_not_logged(receptions_not_logged_);
-  if (recorder_) {
+  if (recorder_ && recorder_->captures() != nullptr) {
     report.set_packets_captured(recorder_->captures()->packets());
     report.set_packets_not_captured(recorder_->captures()->packets_left_out());
+  }
+  if (recorder_ && recorder_->monitors() != nullptr) {
+    report.set_packets_monitored(recorder_->monitors()->packets());
+    report.set_packets_not_monitored(recorder_->monitors()->packets_left_out());
   }
   return report;
 }

@@ -28,13 +28,14 @@ namespace cuscus::netsim {
 struct LiveSetup {
   AirParameters air;
   std::vector<std::uint64_t> addresses;
-  std::vector<posix::UniqueFd> taps;       ///< An empty one: a node without interface.
-  std::unique_ptr<StampRing> stamps;       ///< None: frames are taken as sent when they are read.
-  std::unique_ptr<FrameLog> log;           ///< None: no log.
-  std::unique_ptr<CaptureFiles> captures;  ///< None: no captures.
-  std::span<std::byte> radio_memory{};     ///< Empty: nothing is published.
-  posix::UniqueFd reception_log{};         ///< Empty: none.
-  std::vector<std::string> names{};        ///< Of the nodes, for the reception log.
+  std::vector<posix::UniqueFd> taps;         ///< An empty one: a node without interface.
+  std::unique_ptr<StampRing> stamps;         ///< None: frames are taken as sent when they are read.
+  std::unique_ptr<FrameLog> log;             ///< None: no log.
+  std::unique_ptr<CaptureFiles> captures;    ///< None: no captures.
+  std::unique_ptr<MonitorDevices> monitors;  ///< None: no monitor interfaces.
+  std::span<std::byte> radio_memory{};       ///< Empty: nothing is published.
+  posix::UniqueFd reception_log{};           ///< Empty: none.
+  std::vector<std::string> names{};          ///< Of the nodes, for the reception log.
 };
 
 /// Whoever runs a LiveAir.
@@ -50,7 +51,8 @@ class LiveOwner {
 
 /// The air between real interfaces: see docs/adr/0003-ingress-and-release.md.
 ///
-/// One thread does everything but writing the frame log and captures. Frames enter the simulation
+/// One thread does everything but writing the frame log, captures and to monitor
+/// interfaces. Frames enter the simulation
 /// at the time at which they were sent; no event runs before its time; copies are written one at a
 /// time, the ring of send stamps being drained and due events run in between.
 class LiveAir final : private AirListener {
@@ -118,7 +120,7 @@ class LiveAir final : private AirListener {
   FrameStore frames_;
   std::optional<LinkCounts> link_counts_;
   std::optional<ReceptionLog> receptions_;
-  std::optional<PpduRecorder> recorder_;  ///< When there are captures.
+  std::optional<PpduRecorder> recorder_;  ///< When there are captures or monitor interfaces.
   AirMonitors monitors_;
   std::unique_ptr<FrameCarrier> air_;
   posix::UniqueFd wake_;  ///< epoll: owner and stamps, or owner and TAPs.

@@ -82,6 +82,23 @@ std::unique_ptr<netsim::CaptureFiles> take_captures(ChildSession& session,
                                                 netsim::PpduEncoder{setup.air, setup.addresses});
 }
 
+/// Null when no node has one.
+std::unique_ptr<netsim::MonitorDevices> take_monitors(ChildSession& session,
+                                                      const netsim::LiveSetup& setup) {
+  std::vector<posix::UniqueFd> devices;
+  bool any = false;
+  for (std::uint32_t node = 0; node < setup.addresses.size(); ++node) {
+    auto device = session.take_if_given(proto::Descriptors::KIND_MONITOR, node);
+    any = any || device;
+    devices.push_back(device ? std::move(*device) : posix::UniqueFd{});
+  }
+  if (!any) {
+    return nullptr;
+  }
+  return std::make_unique<netsim::MonitorDevices>(std::move(devices),
+                                                  netsim::PpduEncoder{setup.air, setup.addresses});
+}
+
 netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfiguration& configuration,
                              Memories& memories) {
   using Kind = proto::Descriptors;
@@ -121,6 +138,7 @@ netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfigurat
     }
   }
   setup.captures = take_captures(session, configuration, setup);
+  setup.monitors = take_monitors(session, setup);
   return setup;
 }
 

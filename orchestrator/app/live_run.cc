@@ -66,7 +66,8 @@ std::vector<node::NodeNetwork> networks_of(const Plan& plan) {
                         .attachment = plan.attach == scenario::Attach::kBridge
                                           ? node::Attachment::kBridge
                                           : node::Attachment::kDirect,
-                        .ipv6 = plan.ipv6});
+                        .ipv6 = plan.ipv6,
+                        .monitor = plan.monitor});
   }
   return networks;
 }
@@ -219,6 +220,7 @@ void LiveRun::start_netsim() {
   }
   for (const auto& node : fleet_->nodes()) {
     given.push_back({Descriptors::KIND_TAP, node.network().index, node.tap_fd()});
+    given.push_back({Descriptors::KIND_MONITOR, node.network().index, node.monitor_fd()});
   }
   proto::Configure configure;
   *configure.mutable_radio() = plan_.radio;

@@ -58,9 +58,9 @@ class Fleet {
 
 /// Open files that a fleet of `nodes` needs in the orchestrator, its children's sockets included.
 [[nodiscard]] constexpr std::uint64_t open_files_for(std::size_t nodes) noexcept {
-  // Per node: pidfd, control socket, network namespace, TAP, capture; agent's socket, log and two
-  // memories.
-  return 9 * nodes + 256;
+  // Per node: pidfd, control socket, network namespace, TAP, mon0, capture; agent's socket, log and
+  // two memories.
+  return 10 * nodes + 256;
 }
 
 }  // namespace cuscus::node

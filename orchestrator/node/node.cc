@@ -138,6 +138,13 @@ void Node::configure_interface(const Surroundings& surroundings) {
                          return neighbour.address != network_.address.address;
                        });
   routes.add_neighbours(index, others);
+  create_monitor(routes);
+}
+
+/// What a program sends to mon0 goes nowhere: one frame waits, the others are dropped.
+void Node::create_monitor(netlink::RouteSocket& routes) {
+  monitor_ = netlink::MonitorDevice::create(kMonitorInterface);
+  routes.change_link(kMonitorInterface, {.queue_frames = 1, .up = network_.monitor});
 }
 
 netlink::LinkCounters Node::tap_counters(const Fabric& fabric) const {

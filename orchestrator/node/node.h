@@ -13,6 +13,7 @@
 #include "common/posix/network_namespace.h"
 #include "common/posix/unique_fd.h"
 #include "orchestrator/netlink/addresses.h"
+#include "orchestrator/netlink/monitor_device.h"
 #include "orchestrator/netlink/route_socket.h"
 #include "orchestrator/netlink/send_stamps.h"
 #include "orchestrator/netlink/tap_device.h"
@@ -30,6 +31,9 @@ enum class Attachment {
 /// The interface that a node's programs use.
 inline constexpr const char* kInterface = "wlan0";
 
+/// Where they can see what its radio sends and receives.
+inline constexpr const char* kMonitorInterface = "mon0";
+
 /// What every node has of its own, as flags of clone3() and setns().
 inline constexpr int kNodeNamespaces =
     CLONE_NEWNET | CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWUTS | CLONE_NEWIPC;
@@ -44,7 +48,8 @@ struct NodeNetwork {
   std::uint32_t queue_frames{
       1000};  ///< txqueuelen: beyond it the TAP drops what netsim is late for.
   Attachment attachment{Attachment::kBridge};
-  bool ipv6{false};  ///< Off: no frame leaves that nobody sent.
+  bool ipv6{false};     ///< Off: no frame leaves that nobody sent.
+  bool monitor{false};  ///< mon0 is up from the start.
 };
 
 /// What all inits of a run are started with.
@@ -89,6 +94,8 @@ class Node {
   [[nodiscard]] const posix::NetworkNamespace& network_namespace() const { return *namespace_; }
   /// Where netsim reads and writes this node's frames; valid after build_links().
   [[nodiscard]] int tap_fd() const { return tap_->fd(); }
+  /// Where netsim writes what mon0 shows; valid after build_links().
+  [[nodiscard]] int monitor_fd() const { return monitor_->fd(); }
   /// Lets go of the TAP, so that another program can attach to it by its name.
   void close_tap() { tap_.reset(); }
   /// What wlan0 and, in the fabric, the TAP have counted and dropped.
@@ -113,11 +120,13 @@ class Node {
        ipc::ControlSocket init_end);
   void build_bridged(const Fabric& fabric, netlink::RouteSocket& fabric_routes);
   void configure_interface(const Surroundings& surroundings);
+  void create_monitor(netlink::RouteSocket& routes);
   [[nodiscard]] std::string link_name(const char* prefix) const;
 
   NodeNetwork network_;
   ipc::ControlSocket control_;
   std::optional<netlink::TapDevice> tap_;
+  std::optional<netlink::MonitorDevice> monitor_;
   posix::ChildProcess init_;  // dies before the TAP goes, so that nobody sees wlan0 vanish
   std::optional<posix::NetworkNamespace> namespace_;
 };

@@ -117,6 +117,7 @@ class Planner {
     plan_.attach = scenario_.network.attach;
     plan_.static_neighbours = scenario_.network.neighbours == scenario::AddressResolution::kStatic;
     plan_.ipv6 = scenario_.network.ipv6;
+    plan_.monitor = scenario_.network.monitor;
     plan_.mtu_bytes = scenario_.network.mtu_bytes;
     plan_.record_frames = scenario_.record.frames;
     plan_.record_receptions = scenario_.record.receptions;

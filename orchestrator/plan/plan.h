@@ -82,6 +82,7 @@ struct Plan {
   scenario::Attach attach{};
   bool static_neighbours{};  ///< Permanent neighbour entries instead of ARP on the air.
   bool ipv6{};
+  bool monitor{};  ///< mon0 of every node is up from the start.
   std::uint32_t mtu_bytes{};
   std::vector<Host> hosts;  ///< Empty: names are not wanted.
   /// In the order of their indices: UAVs and fixed nodes as in the fleet, then the ground station.

@@ -30,7 +30,9 @@ Json json_of(const proto::RadioReport& report) {
           {"frames_not_logged", report.frames_not_logged()},
           {"receptions_not_logged", report.receptions_not_logged()},
           {"packets_captured", report.packets_captured()},
-          {"packets_not_captured", report.packets_not_captured()}};
+          {"packets_not_captured", report.packets_not_captured()},
+          {"packets_monitored", report.packets_monitored()},
+          {"packets_not_monitored", report.packets_not_monitored()}};
 }
 
 Json json_of(const proto::WorldReport& report) {

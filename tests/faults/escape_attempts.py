@@ -96,12 +96,12 @@ ATTEMPTS = {
     "see the init's root": lambda: bool(os.listdir("/proc/1/root")),
     "reach the host's loopback": lambda: connects(socket.AF_INET, ("127.0.0.1", PORT)),
     "reach the host's abstract socket": lambda: connects(socket.AF_UNIX, "\0" + ABSTRACT),
-    "have an interface besides lo and wlan0":
-        lambda: bool(set(os.listdir("/sys/class/net")) - {"lo", "wlan0"}),
+    "have an interface besides lo, wlan0 and mon0":
+        lambda: bool(set(os.listdir("/sys/class/net")) - {"lo", "wlan0", "mon0"}),
     "have a route besides wlan0": other_routes,
     "have a bridge or TAP in sight":
         lambda: bool([line for line in pathlib.Path("/proc/net/dev").read_text().splitlines()[2:]
-                      if line.split(":")[0].strip() not in ("lo", "wlan0")]),
+                      if line.split(":")[0].strip() not in ("lo", "wlan0", "mon0")]),
     "mount": lambda: call(LIBC.mount, b"tmpfs", b"/mnt", b"tmpfs", 0, None),
     "make a network namespace": lambda: call(LIBC.unshare, CLONE_NEWNET),
     "see the registry of runs": lambda: os.path.exists("/run/cuscus"),

@@ -63,7 +63,7 @@ TEST_CASE("a visitor is inside all namespaces of a node, as root or as its user"
   const auto user =
       visit(node, {"id", "-u"}, posix::ChildIdentity{.uid = node_uid(0), .gid = node_uid(0)});
 
-  CHECK(root.output == "uav0\nlo\nwlan0\n/proc/1 /proc/2\n0\n10.0.0.1\tuav0\n");
+  CHECK(root.output == "uav0\nlo\nmon0\nwlan0\n/proc/1 /proc/2\n0\n10.0.0.1\tuav0\n");
   CHECK(user.output == std::to_string(node_uid(0)) + "\n");
 }
 

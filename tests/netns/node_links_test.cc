@@ -97,7 +97,7 @@ TEST_CASE("an interface has the address and size that were asked for, and whole 
                                  "cd /sys/class/net; echo *; cd wlan0; cat address mtu "
                                  "tx_queue_len; hostname"});
 
-  CHECK(run.output == "lo wlan0\n02:17:2a:00:01:fe\n1400\n1234\nuav0\n");
+  CHECK(run.output == "lo mon0 wlan0\n02:17:2a:00:01:fe\n1400\n1234\nuav0\n");
   CHECK_FALSE(node.network_namespace().run([] { return netlink::has_offloads(kInterface); }));
 }
 

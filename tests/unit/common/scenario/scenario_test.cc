@@ -83,7 +83,8 @@ TEST_CASE("The scenario written out in full is the same scenario") {
                 "shadowing": {"deviation": "6 dB", "decorrelation": "13 m"},
                 "fading": {"model": "rice", "k_factor": "3 dB", "residual_doppler": "2 Hz"},
                 "propagation": {"model": "paper-eq1", "alpha": 22.5, "chi": "9 dB2"}},
-      "network": {"subnet": "192.168.7.0/24", "attach": "direct", "neighbours": "arp"},
+      "network": {"subnet": "192.168.7.0/24", "attach": "direct", "neighbours": "arp",
+                  "monitor": true},
       "fleet": [
         {"name": "a", "count": 3, "start": {"layout": "line", "direction": "33 deg",
          "centre": ["-7.25 m", "1 km", "0 m"], "heading": "-90 deg"},

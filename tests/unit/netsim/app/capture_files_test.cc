@@ -113,16 +113,11 @@ TEST_CASE("only captured nodes are wanted, and failures only on demand and by th
   CaptureSetup setup = of_node_1(file);
   setup.failed = failed;
   const CaptureFiles captures{std::move(setup), encoder_of_two()};
-  PpduRecord record = received(SimTime{});
 
-  CHECK(captures.wants(record));
-  record.reception.cause = LossCause::kInterference;
-  CHECK(captures.wants(record) == failed);
-  record.reception.cause = LossCause::kCollision;  // never begun to be decoded
-  CHECK_FALSE(captures.wants(record));
-  record.node = 0;
-  record.own = true;
-  CHECK_FALSE(captures.wants(record));
+  CHECK(captures.wants(1, LossCause::kNone));
+  CHECK(captures.wants(1, LossCause::kInterference) == failed);
+  CHECK_FALSE(captures.wants(1, LossCause::kCollision));  // never begun to be decoded
+  CHECK_FALSE(captures.wants(0, LossCause::kNone));
 }
 
 TEST_CASE("a snap length cuts packets and keeps what they were") {
@@ -183,7 +178,7 @@ struct Bench {
   Bench() {
     frame = frames.add(0, static_cast<std::uint32_t>(kEthernet.size()), 0);
     auto captures = std::make_unique<CaptureFiles>(of_node_1(file), encoder_of_two());
-    recorder.emplace(frames, std::move(captures));
+    recorder.emplace(frames, std::move(captures), nullptr);
   }
   void hear(MacFrame::Kind kind) {
     PpduRecord record = received(SimTime{});
