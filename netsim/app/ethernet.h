@@ -13,7 +13,7 @@ namespace cuscus::netsim {
 struct EthernetHead {
   std::uint64_t destination;  ///< 48 bits, the first octet highest.
   bool group;                 ///< Broadcast or multicast.
-  std::uint8_t priority;      ///< 802.1D user priority, 0 ... 7.
+  std::uint8_t priority{};    ///< 802.1D user priority, 0 ... 7.
 };
 
 /// Reads the head of an Ethernet II frame of `frame_bytes` in all, without FCS. Nothing when it

@@ -122,7 +122,7 @@ TEST_CASE("loss and jitter of an ideal air are drawn for each frame and receiver
     least_us = std::min(least_us, delay_us);
     most_us = std::max(most_us, delay_us);
     sum_us += delay_us;
-    pairs += at_both.insert(delivery.id).second ? 0 : 1;
+    pairs += at_both.insert(delivery.id).second ? 0U : 1U;
   }
   // Uniform in 500 ... 1500 us; the mean of 5600 has a standard deviation of 3.9 us.
   CHECK(least_us >= 500.0);

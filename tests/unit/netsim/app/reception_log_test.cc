@@ -129,7 +129,7 @@ TEST_CASE("the terms of every budget add up to the power that the air reckoned w
     CHECK(record.budget.tx_power_dbm == 15.0F);
     CHECK(record.budget.obstacle_loss_db == 0.0F);
     CHECK(record.budget.shadowing_loss_db != 0.0F);
-    faded += std::abs(record.budget.fading_loss_db) > 1.0F ? 1 : 0;
+    faded += std::abs(record.budget.fading_loss_db) > 1.0F ? 1U : 0U;
   }
   CHECK(faded > 100);
 }

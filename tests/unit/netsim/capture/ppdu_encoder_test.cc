@@ -18,7 +18,7 @@ constexpr std::size_t kReceivedHeader = 24;
 constexpr std::size_t kOwnHeader = 27;
 
 /// From node 0 to node 1.
-const Octets kEthernet{2, 0, 0, 0, 0, 2, 2, 0, 0, 0, 0, 1, 8, 0, 'd', 'a', 't', 'a'};
+const Octets kDataFrame{2, 0, 0, 0, 0, 2, 2, 0, 0, 0, 0, 1, 8, 0, 'd', 'a', 't', 'a'};
 
 PpduEncoder encoder(const std::string& standard = "802.11g", const std::string& mac = "dcf") {
   AirParameters air;
@@ -41,7 +41,7 @@ PpduRecord retry() {
 
 Octets encoded(const PpduEncoder& encoder, const PpduRecord& record) {
   Octets octets;
-  encoder.append(octets, record, kEthernet);
+  encoder.append(octets, record, kDataFrame);
   return octets;
 }
 
