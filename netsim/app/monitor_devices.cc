@@ -49,7 +49,7 @@ void MonitorDevices::add(const PpduRecord& record,
 }
 
 void MonitorDevices::leave_out(std::uint32_t node) noexcept {
-  left_out_ += ports_[node].state == State::kUp ? 1 : 0;
+  left_out_ += ports_[node].state == State::kUp ? 1U : 0U;
 }
 
 void MonitorDevices::write(const PpduRecord& record, std::span<const std::uint8_t> ethernet) {
