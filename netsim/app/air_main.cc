@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <fstream>
 #include <iostream>
 #include <limits>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "netsim/app/replay.h"
@@ -44,6 +46,7 @@ struct Options {
   bool no_detection{false};
   std::string replay_file;
   std::string positions_file;
+  std::string receptions_file;
 };
 
 std::uint32_t kbps(double mbps) { return static_cast<std::uint32_t>(std::lround(mbps * 1e3)); }
@@ -142,6 +145,9 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--positions", o.positions_file,
                  "For --replay: CSV time_ns,node,x_m,y_m,z_m; without it all are in range")
       ->check(CLI::ExistingFile);
+  app.add_option("--receptions", o.receptions_file,
+                 "For --replay: file for the simulated receptions, CSV "
+                 "frame,sender,sent_ns,receiver,delivery_ns");
 }
 
 void apply(Options& o) {
@@ -218,6 +224,20 @@ void print(const Options& o, const SyntheticResult& r, double wall_s) {
              sum.dropped_retry_limit, sum.dropped_too_long, r.receptions, r.events, wall_s);
 }
 
+void replay_log(const Options& options, const ReplayLog& log) {
+  const DecibelMilliwatt equal_power = options.run.layout.equal_power;
+  if (options.receptions_file.empty()) {
+    print_replay(std::cout, log, replay(log, equal_power));
+    return;
+  }
+  std::ofstream receptions{options.receptions_file};
+  const ReplayResult result = replay(log, equal_power, &receptions);
+  if (!receptions.flush()) {
+    throw std::runtime_error{options.receptions_file + ": could not be written"};
+  }
+  print_replay(std::cout, log, result);
+}
+
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"Simulates an 802.11 ad hoc network with synthetic traffic; prints CSV.",
@@ -230,7 +250,7 @@ int run(int argc, char** argv) {
     if (app.count("--seed") > 0) {
       log.air.seed = options.run.air.seed;
     }
-    print_replay(std::cout, log, replay(log, options.run.layout.equal_power));
+    replay_log(options, log);
     return 0;
   }
   const auto begin = std::chrono::steady_clock::now();

@@ -48,9 +48,20 @@ void add(ReplaySum& sum, std::int64_t sent_ns, std::uint32_t attempts, std::uint
 /// Adds up what the simulation makes of the log's frames.
 class Sum final : public AirListener {
  public:
-  explicit Sum(ReplayResult& result) : result_{&result} {}
+  Sum(ReplayResult& result, const ReplayLog& log, std::ostream* receptions)
+      : result_{&result}, log_{&log}, receptions_{receptions} {
+    if (receptions_ != nullptr) {
+      *receptions_ << "frame,sender,sent_ns,receiver,delivery_ns\n";
+    }
+  }
 
-  void delivered(const Delivery& /*delivery*/) override {}
+  void delivered(const Delivery& delivery) override {
+    if (receptions_ != nullptr) {
+      *receptions_ << delivery.id << ',' << delivery.sender << ','
+                   << log_->frames[delivery.id].sent_ns << ',' << delivery.receiver << ','
+                   << to_ns(delivery.time) << '\n';
+    }
+  }
   void finished(const FrameReport& report) override {
     auto& cast = report.destination == kGroup ? result_->group : result_->individual;
     add(cast.simulated, to_ns(report.sent_at), report.attempts, report.deliveries,
@@ -59,6 +70,8 @@ class Sum final : public AirListener {
 
  private:
   ReplayResult* result_;
+  const ReplayLog* log_;
+  std::ostream* receptions_;
 };
 
 std::vector<PositionRecord> read_positions(const std::string& path, std::size_t nodes) {
@@ -126,7 +139,7 @@ ReplayLog read_replay_log(const std::string& path, const std::string& positions_
   return log;
 }
 
-ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power) {
+ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power, std::ostream* receptions) {
   AirParameters parameters = log.air;
   parameters.channel.seed = parameters.seed;
   if (log.positions.empty()) {
@@ -137,15 +150,16 @@ ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power) {
     parameters.channel.reference_loss = parameters.nodes.front().tx_power - equal_power;
   }
   ReplayResult result;
-  Sum sum{result};
+  Sum sum{result, log, receptions};
   RecordedPositions positions{log.positions, parameters.nodes.size()};
   const auto simulated = make_air(parameters, positions, sum);
   std::int64_t last_ns = 0;
+  std::uint64_t number = 0;
   for (const FrameRecord& frame : log.frames) {
     // The simulation is kept just behind the sends, so that its queue stays short.
     simulated->run_until(sim_time(std::max<std::int64_t>(0, frame.sent_ns - 1)));
     simulated->offer(frame.node, sim_time(frame.sent_ns),
-                     {.id = 0,
+                     {.id = number++,
                       .destination = frame.destination,
                       .psdu_bytes = psdu_bytes_of_ethernet(frame.frame_bytes),
                       .priority = frame.priority});

@@ -48,8 +48,11 @@ struct ReplayResult {
 
 /// Simulates the log's sends on the air of its header; without positions every link has
 /// `equal_power`. With the positions of the run and its seed, backoffs and errors are drawn as they
-/// were in the run.
-[[nodiscard]] ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power);
+/// were in the run. `receptions`, if any, gets a CSV table of what the simulation delivers: the
+/// frame's line in the log, counted by send time from 0, its sender and send time, the receiver,
+/// the time of delivery.
+[[nodiscard]] ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power,
+                                  std::ostream* receptions = nullptr);
 
 /// A CSV table: one line per cast and side.
 void print_replay(std::ostream& out, const ReplayLog& log, const ReplayResult& result);

@@ -1,8 +1,9 @@
 // bench-beacon: an ordinary UDP program that broadcasts every period and counts what it hears. It
 // is the load of scripts/bench-live and knows nothing of the testbed.
 //
-// usage: bench-beacon INDEX COUNT PERIOD_US PAYLOAD_BYTES DURATION_S BROADCAST_ADDRESS
-// prints: index sent received own_cpu_s, then the delay quantiles from sendto() to recv() [us]
+// usage: bench-beacon INDEX COUNT PERIOD_US PAYLOAD_BYTES DURATION_S BROADCAST_ADDRESS [receptions]
+// prints: index sent received own_cpu_s, then the delay quantiles from sendto() to recv() [us];
+// with 'receptions' a line for each as well: sender, its datagram's number, delay [us]
 
 #include <arpa/inet.h>
 #include <poll.h>
@@ -18,6 +19,7 @@
 #include <exception>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/posix/check.h"
@@ -43,6 +45,7 @@ struct Options {
   std::size_t payload_bytes;
   std::int64_t duration_ns;
   std::string broadcast_address;
+  bool print_receptions;
 };
 
 /// The first bytes of each datagram.
@@ -52,10 +55,19 @@ struct Stamp {
   std::int64_t sent_ns;
 };
 
+struct Reception {
+  std::uint32_t sender;
+  std::uint32_t sequence;
+  double delay_us;
+};
+
 Options parse(std::span<char* const> args) {
-  if (args.size() != 7) {
-    std::fputs("usage: bench-beacon INDEX COUNT PERIOD_US PAYLOAD_BYTES DURATION_S BROADCAST\n",
-               stderr);
+  if (args.size() < 7 || args.size() > 8 ||
+      (args.size() == 8 && std::string_view{args[7]} != "receptions")) {
+    std::fputs(
+        "usage: bench-beacon INDEX COUNT PERIOD_US PAYLOAD_BYTES DURATION_S BROADCAST "
+        "[receptions]\n",
+        stderr);
     std::exit(kExitUsage);  // NOLINT(concurrency-mt-unsafe): no other thread
   }
   return {.index = static_cast<std::uint32_t>(std::stoul(args[1])),
@@ -63,7 +75,8 @@ Options parse(std::span<char* const> args) {
           .period_ns = std::stoll(args[3]) * 1000,
           .payload_bytes = std::max(sizeof(Stamp), static_cast<std::size_t>(std::stoul(args[4]))),
           .duration_ns = std::stoll(args[5]) * 1000 * kNanosecondsPerMillisecond,
-          .broadcast_address = args[6]};
+          .broadcast_address = args[6],
+          .print_receptions = args.size() == 8};
 }
 
 UniqueFd open_socket() {
@@ -113,15 +126,24 @@ class Beacon {
     receive_until(monotonic_now_ns() + 500 * kNanosecondsPerMillisecond);
   }
 
-  void print() {
-    std::sort(delays_us_.begin(), delays_us_.end());
+  void print() const {
+    std::vector<double> delays_us;
+    for (const Reception& reception : receptions_) {
+      delays_us.push_back(reception.delay_us);
+    }
+    std::sort(delays_us.begin(), delays_us.end());
     const auto quantile = [&](double q) {
-      return delays_us_.empty() ? 0.0
-                                : delays_us_[static_cast<std::size_t>(
-                                      q * static_cast<double>(delays_us_.size() - 1))];
+      return delays_us.empty() ? 0.0
+                               : delays_us[static_cast<std::size_t>(
+                                     q * static_cast<double>(delays_us.size() - 1))];
     };
-    std::printf("%u %u %zu %.3f %.1f %.1f %.1f\n", options_.index, sequence_, delays_us_.size(),
+    std::printf("%u %u %zu %.3f %.1f %.1f %.1f\n", options_.index, sequence_, delays_us.size(),
                 cuscus::posix::process_cpu_s(), quantile(0.5), quantile(0.99), quantile(1.0));
+    if (options_.print_receptions) {
+      for (const Reception& reception : receptions_) {
+        std::printf("%u %u %.1f\n", reception.sender, reception.sequence, reception.delay_us);
+      }
+    }
   }
 
  private:
@@ -156,7 +178,10 @@ class Beacon {
       Stamp stamp{};
       std::memcpy(&stamp, buffer.data(), sizeof stamp);
       if (stamp.index != options_.index) {
-        delays_us_.push_back(static_cast<double>(monotonic_now_ns() - stamp.sent_ns) * 1e-3);
+        receptions_.push_back(
+            {.sender = stamp.index,
+             .sequence = stamp.sequence,
+             .delay_us = static_cast<double>(monotonic_now_ns() - stamp.sent_ns) * 1e-3});
       }
     }
   }
@@ -166,7 +191,7 @@ class Beacon {
   sockaddr_in to_;
   std::vector<std::byte> datagram_;
   std::uint32_t sequence_{0};
-  std::vector<double> delays_us_;
+  std::vector<Reception> receptions_;
 };
 
 }  // namespace

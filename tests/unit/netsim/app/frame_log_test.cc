@@ -10,6 +10,7 @@
 #include <chrono>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 
 #include "common/posix/check.h"
@@ -202,6 +203,22 @@ TEST_CASE("a replay with positions loses what was out of reach") {
 
   CHECK(result.group.simulated.deliveries == 1);
   CHECK(result.tallies[1].lost_below_detection == 1);
+}
+
+TEST_CASE("a replay lists its receptions with the frames' places in the log") {
+  ReplayLog log;
+  log.air.nodes.assign(3, AirNode{});
+  log.frames = {record(1'000'000, 2, kGroup), record(20'000'000, 1, 0)};
+  std::ostringstream receptions;
+
+  static_cast<void>(replay(log, DecibelMilliwatt{-50.0}, &receptions));
+
+  // DIFS and 250 us each, as above; all nodes are in one place.
+  CHECK(receptions.str() ==
+        "frame,sender,sent_ns,receiver,delivery_ns\n"
+        "0,2,1000000,0,1300000\n"
+        "0,2,1000000,1,1300000\n"
+        "1,1,20000000,0,20300000\n");
 }
 
 TEST_CASE("a replay uses the powers and the channel that the log names") {
