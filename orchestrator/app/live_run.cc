@@ -193,6 +193,7 @@ void LiveRun::build_nodes() {
                                              .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
                                              .on_step = [look](std::string_view) { look(); },
                                              .on_wait = look});
+  links_ = std::make_unique<LinkFollower>(loop_, fleet_->fabric().network_namespace(), plan_);
   if (on_nodes_built_) {
     on_nodes_built_();
   }

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/posix/unique_fd.h"
+#include "orchestrator/app/link_follower.h"
 #include "orchestrator/app/node_crew.h"
 #include "orchestrator/app/progress.h"
 #include "orchestrator/app/run_memories.h"
@@ -124,6 +125,7 @@ class LiveRun {
   std::unique_ptr<Service> world_;
   std::optional<netlink::SendStampRing> send_stamps_;
   std::unique_ptr<node::Fleet> fleet_;
+  std::unique_ptr<LinkFollower> links_;
   std::unique_ptr<Service> netsim_;
   std::unique_ptr<NodeCrew> crew_;
 };

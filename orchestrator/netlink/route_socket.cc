@@ -30,12 +30,11 @@ constexpr std::size_t kAnswerBytes = std::size_t{32} * 1024;
 constexpr std::size_t aligned(std::size_t size) { return (size + 3U) & ~std::size_t{3}; }
 constexpr std::size_t kAttributeHeaderBytes = aligned(sizeof(nlattr));
 
-ifinfomsg link_header(bool up, std::uint32_t index = 0) {
+ifinfomsg link_header(std::optional<bool> up) {
   ifinfomsg header{};
   header.ifi_family = AF_UNSPEC;
-  header.ifi_index = static_cast<int>(index);
   if (up) {
-    header.ifi_flags = IFF_UP;
+    header.ifi_flags = *up ? IFF_UP : 0;
     header.ifi_change = IFF_UP;
   }
   return header;
@@ -173,7 +172,7 @@ void RouteSocket::create_veth(const VethPair& pair, const posix::NetworkNamespac
       constexpr int kVethInfoPeer = 1;  // VETH_INFO_PEER, linux/veth.h
       message.nest(kVethInfoPeer, [&] {
         // Not up yet: the kernel opens it before it has tied the two ends.
-        message.put_header(link_header(false))
+        message.put_header(link_header(std::nullopt))
             .put_text(IFLA_IFNAME, pair.peer_name)
             .put(IFLA_ADDRESS, pair.peer_mac)
             .put_u32(IFLA_MTU, pair.mtu_bytes)
@@ -204,13 +203,13 @@ void RouteSocket::change_link(const std::string& name, const LinkChange& change)
 }
 
 void RouteSocket::delete_link(const std::string& name) {
-  RouteMessage message{RTM_DELLINK, 0, link_header(false)};
+  RouteMessage message{RTM_DELLINK, 0, link_header(std::nullopt)};
   message.put_text(IFLA_IFNAME, name);
   transact(std::move(message), "delete link '" + name + "'");
 }
 
 std::uint32_t RouteSocket::index_of(const std::string& name) {
-  RouteMessage message{RTM_GETLINK, 0, link_header(false)};
+  RouteMessage message{RTM_GETLINK, 0, link_header(std::nullopt)};
   message.put_text(IFLA_IFNAME, name);
   std::uint32_t index = 0;
   transact(std::move(message), "find link '" + name + "'", [&](const nlmsghdr& answer) {
@@ -221,7 +220,7 @@ std::uint32_t RouteSocket::index_of(const std::string& name) {
 }
 
 LinkCounters RouteSocket::counters_of(const std::string& name) {
-  RouteMessage message{RTM_GETLINK, 0, link_header(false)};
+  RouteMessage message{RTM_GETLINK, 0, link_header(std::nullopt)};
   message.put_text(IFLA_IFNAME, name);
   rtnl_link_stats64 statistics{};
   transact(std::move(message), "read counters of '" + name + "'", [&](const nlmsghdr& answer) {

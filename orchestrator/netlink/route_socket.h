@@ -21,7 +21,7 @@ struct LinkChange {
   std::optional<std::uint32_t> mtu_bytes{};
   std::optional<std::uint32_t> queue_frames{};  ///< txqueuelen
   std::optional<std::uint32_t> master_index{};  ///< The bridge that it becomes a port of.
-  bool up{false};
+  std::optional<bool> up{};
 };
 
 /// A pair of interfaces, the second of which is born in another namespace, and is down there.

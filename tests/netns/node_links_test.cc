@@ -12,6 +12,7 @@
 #include <string>
 
 #include "common/posix/check.h"
+#include "orchestrator/netlink/link_watch.h"
 #include "orchestrator/netlink/offloads.h"
 #include "orchestrator/node/fleet.h"
 #include "tests/support/node_programs.h"
@@ -99,6 +100,33 @@ TEST_CASE("an interface has the address and size that were asked for, and whole 
 
   CHECK(run.output == "lo mon0 wlan0\n02:17:2a:00:01:fe\n1400\n1234\nuav0\n");
   CHECK_FALSE(node.network_namespace().run([] { return netlink::has_offloads(kInterface); }));
+}
+
+/// Whether `watch` hears within 5 s that `link` has or has lost its carrier, as `wanted`.
+bool hears(netlink::LinkWatch& watch, const std::string& link, bool wanted) {
+  pollfd readable{.fd = watch.fd(), .events = POLLIN, .revents = 0};
+  while (::poll(&readable, 1, 5'000) > 0) {
+    for (const auto& change : watch.take()) {
+      if (change.name == link && change.has_carrier == wanted) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+TEST_CASE("the fabric hears of a bridged node's interface that goes down, up, and away") {
+  CUSCUS_ROOT_ONLY();
+  Fleet fleet{test_fleet(1, Attachment::kBridge), {}};
+  auto watch = netlink::LinkWatch::in(fleet.fabric().network_namespace());
+  auto routes = netlink::RouteSocket::in(fleet.nodes()[0].network_namespace());
+
+  routes.change_link(kInterface, {.up = false});
+  CHECK(hears(watch, "veth0", false));
+  routes.change_link(kInterface, {.up = true});
+  CHECK(hears(watch, "veth0", true));
+  routes.delete_link(kInterface);
+  CHECK(hears(watch, "veth0", false));
 }
 
 TEST_CASE("the first frame on the air is the first that a program sends, checksums filled in") {
