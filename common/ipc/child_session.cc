@@ -106,6 +106,13 @@ void ChildSession::beat(std::int64_t sim_time_ns, const std::string& state) {
   socket_.try_send(envelope);
 }
 
+void ChildSession::beat(std::int64_t sim_time_ns, const proto::Report& so_far) {
+  proto::Envelope envelope;
+  envelope.mutable_status()->set_sim_time_ns(sim_time_ns);
+  *envelope.mutable_status()->mutable_so_far() = so_far;
+  socket_.try_send(envelope);
+}
+
 void ChildSession::report(const proto::Report& report) {
   proto::Envelope envelope;
   *envelope.mutable_report() = report;

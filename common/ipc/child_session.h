@@ -49,6 +49,8 @@ class ChildSession {
 
   /// A heartbeat; lost without harm when the orchestrator is slow.
   void beat(std::int64_t sim_time_ns, const std::string& state = {});
+  /// One that says what the report would be by now.
+  void beat(std::int64_t sim_time_ns, const proto::Report& so_far);
 
   void report(const proto::Report& report);
   void fail(const std::string& text);

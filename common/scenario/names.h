@@ -62,6 +62,9 @@ inline constexpr std::array kNeighbourSourceNames{
 inline constexpr std::array kOnExitNames{Named<OnExit>{"fail", OnExit::kFail},
                                          Named<OnExit>{"mark", OnExit::kMark},
                                          Named<OnExit>{"ignore", OnExit::kIgnore}};
+inline constexpr std::array kOnLateNames{Named<OnLate>{"warn", OnLate::kWarn},
+                                         Named<OnLate>{"fail", OnLate::kFail},
+                                         Named<OnLate>{"stop", OnLate::kStop}};
 inline constexpr std::array kClockNames{Named<ClockSource>{"real", ClockSource::kReal}};
 
 /// The name of `value` in `table`, which has one for every enumerator.

@@ -403,6 +403,13 @@ struct Record {
 
 enum class ClockSource { kReal };
 
+/// What follows from a host that does not keep up.
+enum class OnLate {
+  kWarn,  ///< A warning; the verdict says the rest.
+  kFail,  ///< And the run counts as failed unless its verdict is VALID.
+  kStop,  ///< It ends as soon as it cannot become VALID any more.
+};
+
 struct Scenario {
   std::string name;
   std::string description;
@@ -410,6 +417,7 @@ struct Scenario {
   Duration duration{std::chrono::seconds{60}};
   ClockSource clock{ClockSource::kReal};
   bool realtime{true};  ///< Ask for SCHED_FIFO.
+  OnLate on_late{OnLate::kWarn};
   Radio radio;
   Network network;
   World world;

@@ -339,6 +339,7 @@ Json to_json(const Scenario& scenario) {
           {"duration", text(scenario.duration)},
           {"clock", name_of(kClockNames, scenario.clock)},
           {"realtime", scenario.realtime},
+          {"on_late", name_of(kOnLateNames, scenario.on_late)},
           {"radio", json_of(scenario.radio)},
           {"network",
            {{"subnet", subnet_text(network.subnet)},

@@ -64,7 +64,7 @@ class LiveAir final : private AirListener {
   /// the owner wants to stop.
   void run(std::int64_t start_monotonic_ns, LiveOwner& owner);
 
-  /// Valid after run().
+  /// Of the run so far in LiveOwner::beat(), whole after run().
   [[nodiscard]] proto::RadioReport report() const;
   [[nodiscard]] shm::RadioTally tally(std::uint32_t node) const;
 

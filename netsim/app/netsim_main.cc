@@ -28,14 +28,16 @@ namespace shm = cuscus::shm;
 /// Joins the live air to the orchestrator, and watches that the world moves.
 class Session final : public netsim::LiveOwner {
  public:
-  Session(ChildSession& child, const shm::FleetMemoryReader& fleet)
-      : child_{&child}, fleet_{&fleet} {}
+  Session(ChildSession& child, const shm::FleetMemoryReader& fleet, const netsim::LiveAir& air)
+      : child_{&child}, fleet_{&fleet}, air_{&air} {}
 
   [[nodiscard]] int fd() const override { return child_->fd(); }
   [[nodiscard]] bool should_stop() override { return child_->stop_requested(); }
 
   void beat(SimTime now) override {
-    child_->beat(cuscus::to_ns(now));
+    proto::Report so_far;
+    *so_far.mutable_radio() = air_->report();
+    child_->beat(cuscus::to_ns(now), so_far);
     const std::uint64_t steps = fleet_->steps();
     if (steps != steps_) {
       steps_ = steps;
@@ -50,6 +52,7 @@ class Session final : public netsim::LiveOwner {
  private:
   ChildSession* child_;
   const shm::FleetMemoryReader* fleet_;
+  const netsim::LiveAir* air_;
   std::uint64_t steps_{0};
   SimTime moved_at_{};
   bool warned_{false};
@@ -165,7 +168,7 @@ void serve(ChildSession& session) {
     if (!posix::try_lock_memory()) {
       spdlog::warn("memory could not be locked: page faults may delay releases");
     }
-    Session owner{session, fleet};
+    Session owner{session, fleet, air};
     air.run(*start_ns, owner);
   }
   proto::Report report;

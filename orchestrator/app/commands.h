@@ -18,6 +18,7 @@ struct ScenarioArguments {
   std::optional<std::string> duration;
   std::optional<std::string> seed;
   std::optional<std::string> clock;
+  std::optional<std::string> on_late;
   bool no_page{false};
   std::vector<std::string> set;  ///< PATH=VALUE
 };

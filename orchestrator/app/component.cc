@@ -66,6 +66,9 @@ void Component::handle(const proto::Envelope& envelope) {
       break;
     case proto::Envelope::kStatus:
       state_ = envelope.status().state().substr(0, kMostStateBytes);
+      if (envelope.status().has_so_far()) {
+        so_far_ = envelope.status().so_far();
+      }
       return;
     case proto::Envelope::kReport:
       report_ = envelope.report();

@@ -41,6 +41,10 @@ class Component {
     return last_heard_;
   }
   [[nodiscard]] const std::optional<proto::Report>& report() const noexcept { return report_; }
+  /// The latest of what it would have reported while it ran.
+  [[nodiscard]] const std::optional<proto::Report>& report_so_far() const noexcept {
+    return so_far_;
+  }
   /// Why it failed, in its own words.
   [[nodiscard]] const std::optional<std::string>& failure() const noexcept { return failure_; }
   /// Whether its control socket has closed: it has ended, or is about to.
@@ -55,6 +59,7 @@ class Component {
   bool gone_{false};
   std::string state_;
   std::optional<proto::Report> report_;
+  std::optional<proto::Report> so_far_;
   std::optional<std::string> failure_;
   std::chrono::steady_clock::time_point last_heard_;
   ControlChannel channel_;

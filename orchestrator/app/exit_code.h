@@ -8,7 +8,7 @@ namespace cuscus::orchestrator {
 inline constexpr int kExitDone = 0;
 inline constexpr int kExitFailed = 1;
 inline constexpr int kExitUsage = 2;
-inline constexpr int kExitInvalid = 3;
+inline constexpr int kExitInvalid = 3;  // or not VALID, where the scenario asks for that
 inline constexpr int kExitSignalBase = 128;
 
 /// What was asked for cannot be done here, or makes no sense: nothing has been created.

@@ -47,6 +47,8 @@ std::string end_reason(const FlightEnd& end) {
       return end.reason;
     case FlightEnd::Kind::kCompleted:
       break;
+    case FlightEnd::Kind::kStoppedLate:
+      return "stopped: " + end.reason;
   }
   return "duration reached";
 }

@@ -12,6 +12,7 @@
 #include "common/posix/check.h"
 #include "common/posix/monotonic_clock.h"
 #include "orchestrator/node/node_identity.h"
+#include "orchestrator/results/fidelity.h"
 
 namespace cuscus::orchestrator {
 namespace {
@@ -37,6 +38,10 @@ struct RunFailed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 struct RunInterrupted {};
+/// It is late, and the scenario wants no such run.
+struct RunLate : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 std::vector<std::uint32_t> vehicles_of(const Plan& plan) {
   std::vector<std::uint32_t> vehicles;
@@ -102,6 +107,9 @@ bool LiveRun::guarded(const Body& body) {
   } catch (const RunInterrupted&) {
     end_.kind = FlightEnd::Kind::kInterrupted;
     end_.signal_number = signal_number_;
+  } catch (const RunLate& late) {
+    end_.kind = FlightEnd::Kind::kStoppedLate;
+    end_.reason = late.what();
   } catch (const std::exception& error) {
     end_.kind = FlightEnd::Kind::kFailed;
     end_.reason = error.what();
@@ -141,6 +149,7 @@ void LiveRun::fly(const OnSample& on_sample) {
       }
       if (now >= next_progress) {
         check_heartbeats();
+        check_validity();
         progress.show(now - start, progress_text());
         next_progress = now + kProgressPeriod;
       }
@@ -327,6 +336,28 @@ void LiveRun::check_heartbeats() {
       throw RunFailed{fmt::format("{} hangs: no heartbeat for {} s", service->component().name(),
                                   HangWatch::kSilenceLimit.count())};
     }
+  }
+}
+
+void LiveRun::check_validity() {
+  const auto& radio = netsim_->component().report_so_far();
+  const auto& world = world_->component().report_so_far();
+  if (lost_validity_ || !radio || !world) {
+    return;
+  }
+  FidelityInputs so_far;
+  so_far.radio = radio->radio();
+  so_far.world = world->world();
+  so_far.longest_supervision_gap = longest_gap_;
+  so_far.realtime_wanted = plan_.realtime;
+  so_far.flown_share =
+      std::clamp(sim_time_s() / std::chrono::duration<double>{plan_.duration}.count(), 1e-9, 1.0);
+  if (const auto reason = lost_validity(so_far)) {
+    lost_validity_ = true;
+    if (plan_.on_late == scenario::OnLate::kStop) {
+      throw RunLate{"cannot become VALID any more: " + *reason};
+    }
+    spdlog::warn("since {:.1f} s the run cannot become VALID any more: {}", sim_time_s(), *reason);
   }
 }
 

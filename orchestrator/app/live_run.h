@@ -38,10 +38,10 @@ struct RunSettings {
 
 /// How a flight ended.
 struct FlightEnd {
-  enum class Kind { kCompleted, kInterrupted, kFailed };
+  enum class Kind { kCompleted, kInterrupted, kFailed, kStoppedLate };
   Kind kind{Kind::kCompleted};
   int signal_number{0};  ///< kInterrupted: what interrupted it.
-  std::string reason;    ///< kFailed: why.
+  std::string reason;    ///< kFailed, kStoppedLate: why.
   double flown_s{0.0};   ///< SimTime reached.
 };
 
@@ -98,6 +98,8 @@ class LiveRun {
   /// Throws when a signal or a failure ends the run.
   void check_trouble() const;
   void check_heartbeats();
+  /// Says once that the run cannot become VALID any more; throws when it is to end then.
+  void check_validity();
   void wait_step(std::chrono::steady_clock::time_point deadline);
   /// Runs what is ready, for a moment at most.
   void serve();
@@ -118,6 +120,7 @@ class LiveRun {
   FlightEnd end_;
   std::vector<std::optional<shm::CommandTally>> commands_;  // by node, once the flight is over
   std::chrono::nanoseconds longest_gap_{0};
+  bool lost_validity_{false};
   std::string send_stamps_text_;
   std::function<void()> on_nodes_built_;
   std::int64_t start_monotonic_ns_{0};

@@ -19,8 +19,8 @@ namespace {
 namespace orchestrator = cuscus::orchestrator;
 
 constexpr auto kFooter =
-    "Exit codes: 0 done, 1 failed, 2 wrong usage or scenario, 3 the run is INVALID,\n"
-    "128+n ended by signal n.";
+    "Exit codes: 0 done, 1 failed, 2 wrong usage or scenario, 3 the run is INVALID, or not\n"
+    "VALID with --on-late fail or stop, 128+n ended by signal n.";
 
 void add_scenario_options(CLI::App& command, orchestrator::ScenarioArguments& arguments) {
   command.add_option("SCENARIO", arguments.file, "scenario file (JSON)")->required();
@@ -55,6 +55,9 @@ struct CommandLine {
     auto* const run_command = app.add_subcommand("run", "fly a scenario");
     add_scenario_options(*run_command, run.scenario);
     run_command->add_option("--out", run.out, "folder for the results (default runs/<run id>)");
+    run_command->add_option("--on-late", run.scenario.on_late,
+                            "when the host does not keep up: warn, fail (exit code 3 unless VALID) "
+                            "or stop (as soon as the run cannot become VALID any more)");
     run_command->add_flag("--no-page", run.scenario.no_page, "do not serve the page");
     auto* const check_command =
         app.add_subcommand("check", "check a scenario and print the plan; creates nothing");

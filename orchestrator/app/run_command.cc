@@ -67,16 +67,20 @@ RegisteredRun registered(const Plan& plan, const std::string& run_id, const fs::
   return run;
 }
 
-int exit_code_of(const FlightEnd& end, Verdict verdict) {
+int exit_code_of(const FlightEnd& end, Verdict verdict, scenario::OnLate on_late) {
   switch (end.kind) {
     case FlightEnd::Kind::kInterrupted:
       return kExitSignalBase + end.signal_number;
     case FlightEnd::Kind::kFailed:
       return kExitFailed;
+    case FlightEnd::Kind::kStoppedLate:
+      return kExitInvalid;
     case FlightEnd::Kind::kCompleted:
       break;
   }
-  return verdict == Verdict::kInvalid ? kExitInvalid : kExitDone;
+  const bool is_refused = on_late == scenario::OnLate::kWarn ? verdict == Verdict::kInvalid
+                                                             : verdict != Verdict::kValid;
+  return is_refused ? kExitInvalid : kExitDone;
 }
 
 /// Gives a run's results to `owner` when it goes, however the run has ended.
@@ -133,6 +137,8 @@ void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& 
   } else if (end.kind == FlightEnd::Kind::kInterrupted) {
     print(stderr, "cuscus: interrupted by {} after {:.1f} s\n", ::sigdescr_np(end.signal_number),
           end.flown_s);
+  } else if (end.kind == FlightEnd::Kind::kStoppedLate) {
+    print(stderr, "cuscus: the run was stopped after {:.1f} s: it {}\n", end.flown_s, end.reason);
   }
   if (outcome.formation_error) {
     print(stdout,
@@ -143,10 +149,10 @@ void print_end(const FlightEnd& end, const RunOutcome& outcome, const Fidelity& 
 }
 
 /// Judges the run, saves what can be saved and says how it ended; its exit code.
-int conclude(const FlightEnd& end, RunOutcome outcome, const FidelityInputs& inputs,
-             const RunDirectory& directory, bool links_saved) {
+int conclude(const Plan& plan, const FlightEnd& end, RunOutcome outcome,
+             const FidelityInputs& inputs, const RunDirectory& directory, bool links_saved) {
   const Fidelity fidelity = judge(inputs);
-  outcome.exit_code = exit_code_of(end, fidelity.verdict);
+  outcome.exit_code = exit_code_of(end, fidelity.verdict, plan.on_late);
   if (!save(directory, kFidelityFile, to_json(fidelity, inputs).dump(2) + "\n") || !links_saved) {
     outcome.exit_code = kExitFailed;
   }
@@ -217,7 +223,7 @@ int run_command(const RunArguments& arguments) {
   RunOutcome outcome = run_outcome(plan, run, sampler, facts);
   outcome.metrics_rows_dropped = metrics.rows_dropped();
   const bool links_saved = save_links(directory, plan, run);
-  return conclude(run.end(), std::move(outcome), fidelity_inputs(plan, run, facts), directory,
+  return conclude(plan, run.end(), std::move(outcome), fidelity_inputs(plan, run, facts), directory,
                   links_saved);
 }
 

@@ -20,6 +20,11 @@ scenario::Scenario load(const ScenarioArguments& arguments) {
   add("duration", arguments.duration);
   add("seed", arguments.seed);
   add("clock", arguments.clock);
+  if (arguments.on_late) {
+    overrides.push_back({.option = "--on-late " + *arguments.on_late,
+                         .path = "on_late",
+                         .value = *arguments.on_late});
+  }
   if (arguments.no_page) {
     overrides.push_back({.option = "--no-page", .path = "ground_station.page", .value = "none"});
   }

@@ -113,6 +113,7 @@ class Planner {
     plan_.seed = scenario_.seed;
     plan_.duration = scenario_.duration;
     plan_.realtime = scenario_.realtime;
+    plan_.on_late = scenario_.on_late;
     plan_.subnet = scenario_.network.subnet;
     plan_.attach = scenario_.network.attach;
     plan_.static_neighbours = scenario_.network.neighbours == scenario::AddressResolution::kStatic;

@@ -78,6 +78,7 @@ struct Plan {
   std::uint64_t seed{};
   scenario::Duration duration{};
   bool realtime{};
+  scenario::OnLate on_late{};
   scenario::Subnet subnet;
   scenario::Attach attach{};
   bool static_neighbours{};  ///< Permanent neighbour entries instead of ARP on the air.

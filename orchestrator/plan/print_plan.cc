@@ -137,6 +137,7 @@ Json to_json(const Plan& plan) {
           {"seed", plan.seed},
           {"duration_s", to_seconds(plan.duration)},
           {"realtime", plan.realtime},
+          {"on_late", name_of(scenario::kOnLateNames, plan.on_late)},
           {"subnet", subnet_text(plan.subnet)},
           {"attach", name_of(scenario::kAttachNames, plan.attach)},
           {"static_neighbours", plan.static_neighbours},

@@ -183,7 +183,8 @@ class Judge {
   }
 
   void share(const std::string& name, const std::string& what, std::uint64_t count,
-             std::uint64_t of, const ShareLimits& limits) {
+             std::uint64_t so_far, const ShareLimits& limits) {
+    const auto of = static_cast<std::uint64_t>(static_cast<double>(so_far) / inputs_.flown_share);
     const double percent = of == 0 ? (count == 0 ? 0.0 : 100.0)
                                    : 100.0 * static_cast<double>(count) / static_cast<double>(of);
     FidelityCheck check{.name = name,
@@ -200,7 +201,8 @@ class Judge {
                           ? Verdict::kDegraded
                           : Verdict::kInvalid;
     }
-    const std::string text = fmt::format("{}: {} of {}, {:.3g} %", what, count, of, percent);
+    const std::string text = fmt::format("{}: {} of {}{}, {:.3g} %", what, count, of,
+                                         of == so_far ? "" : " to be expected", percent);
     add(std::move(check), text);
   }
 
@@ -274,6 +276,12 @@ std::uint64_t count_from(const proto::DurationSummary& summary, unsigned exponen
 }
 
 Fidelity judge(const FidelityInputs& inputs) { return Judge{inputs}.result(); }
+
+std::optional<std::string> lost_validity(const FidelityInputs& so_far) {
+  const Fidelity fidelity = judge(so_far);
+  return fidelity.verdict == Verdict::kValid ? std::nullopt
+                                             : std::optional{fidelity.reasons.front()};
+}
 
 Json to_json(const Fidelity& fidelity, const FidelityInputs& inputs) {
   Json checks = Json::array();

@@ -35,6 +35,9 @@ struct FidelityInputs {
   /// Longest time for which `cuscus` itself did not run.
   SimClock::duration longest_supervision_gap{};
   bool realtime_wanted{true};
+  /// Of the planned flight, what is over. Below 1 the verdict is on what the run can still become:
+  /// shares are those of all samples to be expected, as if nothing more were to be late.
+  double flown_share{1.0};
 };
 
 /// One measure held against its two limits.
@@ -58,6 +61,9 @@ struct Fidelity {
 
 /// The verdict. docs/fidelity.md explains each limit.
 [[nodiscard]] Fidelity judge(const FidelityInputs& inputs);
+
+/// Why a run of which this is known so far cannot be VALID in the end; nothing while it can.
+[[nodiscard]] std::optional<std::string> lost_validity(const FidelityInputs& so_far);
 
 /// Content of fidelity.json: verdict, reasons, every check with its limits, the raw reports.
 [[nodiscard]] nlohmann::ordered_json to_json(const Fidelity& fidelity,

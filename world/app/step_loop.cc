@@ -1,6 +1,7 @@
 #include "world/app/step_loop.h"
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -22,15 +23,19 @@ class Heartbeat {
  public:
   explicit Heartbeat(ipc::ChildSession& session) : session_{&session} {}
 
-  /// Whether to go on. Cheap when called again within the period.
-  bool goes_on(std::int64_t now_ns, SimTime time) {
+  /// Whether to go on. Cheap when called again within the period. `so_far` makes the report of what
+  /// has been by now.
+  template <std::invocable SoFar>
+  bool goes_on(std::int64_t now_ns, SimTime time, const SoFar& so_far) {
     if (now_ns < next_look_ns_) {
       return true;
     }
     next_look_ns_ = now_ns + kLookPeriod_ns;
     if (now_ns >= next_beat_ns_) {
       next_beat_ns_ = now_ns + kBeatPeriod_ns;
-      session_->beat(to_ns(time));
+      proto::Report report;
+      *report.mutable_world() = so_far();
+      session_->beat(to_ns(time), report);
     }
     return !session_->stop_requested();
   }
@@ -42,9 +47,11 @@ class Heartbeat {
 };
 
 /// Waits for `deadline_ns` in naps, so that Stop and a dead orchestrator are seen meanwhile.
-bool wait_until(std::int64_t deadline_ns, Heartbeat& heartbeat, StepHost& host) {
+template <std::invocable SoFar>
+bool wait_until(std::int64_t deadline_ns, Heartbeat& heartbeat, StepHost& host,
+                const SoFar& so_far) {
   for (std::int64_t now_ns = host.now_ns(); now_ns < deadline_ns; now_ns = host.now_ns()) {
-    if (!heartbeat.goes_on(now_ns, SimTime{})) {
+    if (!heartbeat.goes_on(now_ns, SimTime{}, so_far)) {
       return false;
     }
     host.sleep_until_ns(std::min(deadline_ns, now_ns + kLookPeriod_ns));
@@ -74,12 +81,21 @@ proto::WorldReport run_steps(FleetSimulation& simulation, ipc::ChildSession& ses
   statistics::Log2Histogram lateness;
   std::uint64_t overruns = 0;
   Heartbeat heartbeat{session};
+  const auto report_so_far = [&] {
+    proto::WorldReport report;
+    report.set_steps(simulation.steps());
+    report.set_overruns(overruns);
+    *report.mutable_step_lateness() = ipc::summary_of(lateness);
+    report.set_scheduler(host.scheduler());
+    report.set_cpu_s(posix::process_cpu_s());
+    return report;
+  };
 
-  if (wait_until(start_monotonic_ns, heartbeat, host)) {
+  if (wait_until(start_monotonic_ns, heartbeat, host, report_so_far)) {
     simulation.begin();
     std::int64_t now_ns = host.now_ns();
     for (std::int64_t due_ns = start_monotonic_ns + step_ns;
-         heartbeat.goes_on(now_ns, simulation.time()); due_ns += step_ns) {
+         heartbeat.goes_on(now_ns, simulation.time(), report_so_far); due_ns += step_ns) {
       if (now_ns < due_ns) {
         host.sleep_until_ns(due_ns);
         now_ns = host.now_ns();
@@ -93,13 +109,7 @@ proto::WorldReport run_steps(FleetSimulation& simulation, ipc::ChildSession& ses
   }
 
   simulation.publish_tallies();
-  proto::WorldReport report;
-  report.set_steps(simulation.steps());
-  report.set_overruns(overruns);
-  *report.mutable_step_lateness() = ipc::summary_of(lateness);
-  report.set_scheduler(host.scheduler());
-  report.set_cpu_s(posix::process_cpu_s());
-  return report;
+  return report_so_far();
 }
 
 void run_world(ipc::ChildSession& session, StepHost& host) {

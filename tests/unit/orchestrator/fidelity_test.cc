@@ -207,6 +207,29 @@ TEST_CASE("The verdict follows the limits, and each reason has number, unit and 
   }
 }
 
+TEST_CASE("A run has lost its validity when nothing more needs to be late for that") {
+  FidelityInputs inputs = good_run();
+  // A stall of 30 ms, 2 s after the start of a run of a minute.
+  *inputs.world->mutable_step_lateness() = durations({{14, 1'970}, {22, 9}, {24, 21}}, 30'000'000);
+  inputs.world->set_steps(2'000);
+  CHECK(judge(inputs).verdict != Verdict::kValid);
+
+  inputs.flown_share = 2.0 / 60.0;
+  CHECK_FALSE(lost_validity(inputs));
+
+  SECTION("stalls that are too many even for the whole run") {
+    // Of 60 000 steps 300 may be 2 ms late.
+    *inputs.world->mutable_step_lateness() = durations({{14, 1'680}, {22, 320}}, 5'000'000);
+    CHECK_THAT(lost_validity(inputs).value(),
+               Catch::Contains("2.10 ms late: 320 of 60000 to be expected, 0.533 %"));
+  }
+  SECTION("one that is too long in any run") {
+    inputs.world->mutable_step_lateness()->set_max_ns(60'000'000);
+    CHECK_THAT(lost_validity(inputs).value(),
+               Catch::Contains("the latest world step was late by 60 ms"));
+  }
+}
+
 TEST_CASE("What a host did not grant is noted, and only the figures count") {
   FidelityInputs inputs = good_run();
   inputs.radio->set_scheduler("SCHED_OTHER");

@@ -47,6 +47,7 @@ const std::vector<BadInput> kTable{
     {R"({"duration": "2 fortnights"})", "/duration", "has the unit \"fortnights\"", true},
     {R"({"clock": "virtual"})", "/clock", "\"virtual\" is not built yet; allowed: real", true},
     {R"({"clock": "reel"})", "/clock", "\"reel\" is not known; did you mean \"real\"? allowed: real", true},
+    {R"({"on_late": "abort"})", "/on_late", "\"abort\" is not known; allowed: warn, fail, stop", true},
     {R"({"realtime": "yes"})", "/realtime", "\"yes\" is a text; allowed: true, false", true},
     {R"({"radio": 3})", "/radio", "3 is a number; allowed: an object", true},
     {R"({"radio": {"data_rat": "6 Mb/s"}})", "/radio/data_rat", "did you mean \"data_rate\"? allowed: standard, data_rate", true},

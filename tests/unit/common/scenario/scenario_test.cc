@@ -77,6 +77,7 @@ TEST_CASE("The file's quantities arrive in SI units") {
 
 TEST_CASE("The scenario written out in full is the same scenario") {
   const std::string rich = R"({"name": "rich", "seed": 9223372036854775807, "clock": "real",
+      "on_late": "stop",
       "radio": {"preamble_detection": "none", "basic_rates": ["24 Mb/s", "9 Mb/s"],
                 "control_answer": "any-class", "preamble": "short", "rts_threshold": 500,
                 "long_retry_limit": 4, "error_model": "yans", "rate_control": "minstrel", "capture": {"frame": "10 dB"},

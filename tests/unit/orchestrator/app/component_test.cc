@@ -42,7 +42,16 @@ TEST_CASE("a component is configured, becomes ready, reports and goes") {
   CHECK(talk.component.is_ready());
   CHECK(talk.component.state() == "flying");
 
+  CHECK_FALSE(talk.component.report_so_far());
   proto::Report report;
+  report.mutable_world()->set_steps(3);
+  talk.child->beat(2, report);
+  talk.loop.restart();
+  talk.loop.poll();
+  REQUIRE(talk.component.report_so_far());
+  CHECK(talk.component.report_so_far()->world().steps() == 3);
+  CHECK_FALSE(talk.component.report());
+
   report.mutable_world()->set_steps(7);
   talk.child->report(report);
   talk.child.reset();

@@ -105,6 +105,10 @@ TEST_CASE("a world that is never late runs every step, beats at least every seco
   REQUIRE(messages.back().has_report());
   CHECK(std::count_if(messages.begin(), messages.end(),
                       [](const auto& message) { return message.has_status(); }) >= 3);
+  const auto last_beat = std::find_if(messages.rbegin(), messages.rend(),
+                                      [](const auto& message) { return message.has_status(); });
+  CHECK(last_beat->status().so_far().world().steps() >= 2000);
+  CHECK(last_beat->status().so_far().world().step_lateness().max_ns() == 30'000);
   const proto::WorldReport& report = messages.back().report().world();
   CHECK(report.steps() >= 2500);
   CHECK(report.steps() <= 2500 + 20);  // Stop is looked for every 20 ms
