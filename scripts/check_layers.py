@@ -40,7 +40,8 @@ ALLOWED |= {
     "orchestrator/plan": PURE | {"proto"},
     "orchestrator/netlink": {"common/posix", "proto"},
     "orchestrator/init": {"common/posix", "common/ipc", "proto"},
-    "orchestrator/node": {"common/posix", "common/ipc", "proto", "orchestrator/netlink"},
+    "orchestrator/node": {"common/posix", "common/ipc", "common/statistics", "proto",
+                          "orchestrator/netlink"},
     "orchestrator/results": PURE | {"proto", "common/posix", "orchestrator/plan"},
 }
 for component in ("world", "netsim", "uav-agent", "ground-station", "orchestrator"):

@@ -78,8 +78,10 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
       air_{make_air(setup.air, positions, *this, &monitors_)},
       wake_{make_epoll()},
       taps_{make_epoll()},
+      canary_{air_->node_count(), setup.canary_delay},
       buffer_(TapPort::kBufferBytes) {
-  if (setup.addresses.size() != air_->node_count() || setup.taps.size() != air_->node_count()) {
+  if (setup.addresses.size() != air_->node_count() ||
+      setup.taps.size() != air_->node_count() + canary_.port_count()) {
     throw std::invalid_argument{"radio: every node needs an address and a TAP"};
   }
   for (std::uint32_t node = 0; node < air_->node_count(); ++node) {
@@ -87,9 +89,11 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
       throw std::invalid_argument{"radio: node " + std::to_string(node) +
                                   " has the address of another"};
     }
-    ports_.emplace_back(std::move(setup.taps[node]));
+  }
+  for (posix::UniqueFd& tap : setup.taps) {
+    ports_.emplace_back(std::move(tap));
     if (ports_.back().tap.fd() >= 0) {
-      watch(taps_, ports_.back().tap.fd(), node);
+      watch(taps_, ports_.back().tap.fd(), static_cast<std::uint32_t>(ports_.size() - 1));
     }
   }
   if (!setup.radio_memory.empty()) {
@@ -172,6 +176,9 @@ void LiveAir::step(LiveOwner& owner) {
   if (recorder_) {
     recorder_->hand_over();
   }
+  while (const auto copy = canary_.take_due(sim_time(now_ns()))) {
+    copies_.add(*copy);
+  }
   if (!copies_.empty()) {
     write_one_copy();
   }
@@ -216,9 +223,11 @@ void LiveAir::wait(LiveOwner& owner, std::int64_t now) {
     return;
   }
   std::int64_t spin_from = housekeep_at_;
-  if (const auto bound = air_->next_delivery_bound()) {
-    const std::int64_t spin = now - slept_at_ > kLongSpin_ns ? kShortSpin_ns : kSpin_ns;
-    spin_from = std::min(spin_from, to_ns(*bound) - spin);
+  const std::int64_t spin = now - slept_at_ > kLongSpin_ns ? kShortSpin_ns : kSpin_ns;
+  for (const auto& release : {air_->next_delivery_bound(), canary_.next_due()}) {
+    if (release) {
+      spin_from = std::min(spin_from, to_ns(*release) - spin);
+    }
   }
   if (stamps_ && awaited_ > 0) {
     spin_from = std::min(spin_from, service_at_ + kNotWorthSleeping_ns);
@@ -336,7 +345,9 @@ void LiveAir::write_one_copy() {
   } else if (port.tap.fd() < 0) {
     lose_copy(copy, logs::Cause::kLinkDown);
   } else {
-    release_lateness_.add(now_ns() - to_ns(copy.due));
+    if (!canary_.has(copy.receiver)) {
+      release_lateness_.add(now_ns() - to_ns(copy.due));
+    }
     if (too_late) {
       lose_copy(copy, logs::Cause::kLate);
     } else if (!port.tap.write(again.bytes)) {
@@ -424,8 +435,8 @@ proto::RadioReport LiveAir::report() const {
   report.set_events(air_->events());
   report.set_cpu_s(cpu_s_);
   std::uint64_t before_air = 0;
-  for (const Port& port : ports_) {
-    before_air += port.before_air;
+  for (std::uint32_t node = 0; node < air_->node_count(); ++node) {
+    before_air += ports_[node].before_air;
   }
   report.set_lost_before_air(before_air);
   report.set_unstamped(unstamped_);

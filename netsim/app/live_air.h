@@ -8,6 +8,7 @@
 
 #include "common/statistics/log2_histogram.h"
 #include "netsim/air/air.h"
+#include "netsim/app/canary_link.h"
 #include "netsim/app/capture_files.h"
 #include "netsim/app/due_copies.h"
 #include "netsim/app/ethernet.h"
@@ -28,7 +29,9 @@ namespace cuscus::netsim {
 struct LiveSetup {
   AirParameters air;
   std::vector<std::uint64_t> addresses;
-  std::vector<posix::UniqueFd> taps;         ///< An empty one: a node without interface.
+  /// An empty one: a node without interface. With a canary its two follow.
+  std::vector<posix::UniqueFd> taps;
+  Duration canary_delay{0};                  ///< 0: no canary.
   std::unique_ptr<StampRing> stamps;         ///< None: frames are taken as sent when they are read.
   std::unique_ptr<FrameLog> log;             ///< None: no log.
   std::unique_ptr<CaptureFiles> captures;    ///< None: no captures.
@@ -129,6 +132,7 @@ class LiveAir final : private AirListener {
   std::int64_t start_ns_{0};
   bool stop_{false};
   DueCopies copies_;
+  CanaryLink canary_;
   std::uint64_t awaited_{0};  ///< Frames whose payload has not been read.
   std::uint32_t held_{0};
   std::vector<std::uint8_t> buffer_;

@@ -53,6 +53,12 @@ void LiveAir::take(const shm::SendStamp& stamp) {
 void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
                     std::int64_t entered_ns) {
   LiveFrame& live = frames_[frame];
+  if (canary_.has(live.node)) {
+    live.air_done = true;
+    ++live.copies;
+    canary_.sent(frame, live.node, live.sent_ns);
+    return;
+  }
   const auto parsed = parse_ethernet(head, live.frame_bytes);
   if (!parsed) {
     ++ports_[live.node].malformed;

@@ -126,6 +126,10 @@ netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfigurat
     }
     setup.taps.push_back(tap ? std::move(*tap) : posix::UniqueFd{});
   }
+  setup.canary_delay = netsim::Duration{configuration.canary_delay_ns()};
+  for (std::uint32_t end = 0; configuration.canary_delay_ns() > 0 && end < 2; ++end) {
+    setup.taps.push_back(session.take(Kind::KIND_TAP, nodes + end));
+  }
   if (auto ring = session.take_if_given(Kind::KIND_SEND_STAMP_RING)) {
     setup.stamps = std::make_unique<netsim::StampRing>(std::move(*ring));
   } else {

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "common/ipc/duration_summary.h"
+
 namespace cuscus::orchestrator {
 namespace {
 
@@ -45,10 +47,10 @@ std::string end_reason(const FlightEnd& end) {
       return fmt::format("interrupted by {}", ::sigdescr_np(end.signal_number));
     case FlightEnd::Kind::kFailed:
       return end.reason;
-    case FlightEnd::Kind::kCompleted:
-      break;
     case FlightEnd::Kind::kStoppedLate:
       return "stopped: " + end.reason;
+    case FlightEnd::Kind::kCompleted:
+      break;
   }
   return "duration reached";
 }
@@ -114,6 +116,10 @@ FidelityInputs fidelity_inputs(const Plan& plan, const LiveRun& run, const RunFa
         }
       }
     }
+  }
+  if (const auto* const canary = run.canary()) {
+    inputs.canary = {
+        .sent = canary->sent, .lost = canary->lost, .late = ipc::summary_of(canary->late)};
   }
   inputs.suspended = facts.suspended;
   inputs.longest_supervision_gap = run.longest_gap();

@@ -59,6 +59,11 @@ netlink::Ipv4Address address_of(const std::string& text) {
           static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number)};
 }
 
+node::Attachment attachment_of(const Plan& plan) {
+  return plan.attach == scenario::Attach::kBridge ? node::Attachment::kBridge
+                                                  : node::Attachment::kDirect;
+}
+
 std::vector<node::NodeNetwork> networks_of(const Plan& plan) {
   std::vector<node::NodeNetwork> networks;
   for (const auto& node : plan.nodes) {
@@ -68,9 +73,7 @@ std::vector<node::NodeNetwork> networks_of(const Plan& plan) {
                         .address = {.address = address_of(node.ip),
                                     .length = static_cast<std::uint8_t>(plan.subnet.prefix_length)},
                         .mtu_bytes = plan.mtu_bytes,
-                        .attachment = plan.attach == scenario::Attach::kBridge
-                                          ? node::Attachment::kBridge
-                                          : node::Attachment::kDirect,
+                        .attachment = attachment_of(plan),
                         .ipv6 = plan.ipv6,
                         .monitor = plan.monitor});
   }
@@ -202,6 +205,9 @@ void LiveRun::build_nodes() {
                                              .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
                                              .on_step = [look](std::string_view) { look(); },
                                              .on_wait = look});
+  canary_ = std::make_unique<node::Canary>(
+      fleet_->fabric(), static_cast<std::uint32_t>(plan_.nodes.size()), attachment_of(plan_),
+      send_stamps_ ? &*send_stamps_ : nullptr);
   links_ = std::make_unique<LinkFollower>(loop_, fleet_->fabric().network_namespace(), plan_);
   if (on_nodes_built_) {
     on_nodes_built_();
@@ -232,8 +238,13 @@ void LiveRun::start_netsim() {
     given.push_back({Descriptors::KIND_TAP, node.network().index, node.tap_fd()});
     given.push_back({Descriptors::KIND_MONITOR, node.network().index, node.monitor_fd()});
   }
+  for (std::uint32_t end = 0; end < 2; ++end) {
+    given.push_back({Descriptors::KIND_TAP, static_cast<std::uint32_t>(plan_.nodes.size()) + end,
+                     canary_->tap_fd(end)});
+  }
   proto::Configure configure;
   *configure.mutable_radio() = plan_.radio;
+  configure.mutable_radio()->set_canary_delay_ns(node::Canary::kDelay.count());
   netsim_->component().configure(given, configure);
   await([] { return "netsim to be ready"; }, kReadyLimit,
         [&] { return netsim_->component().is_ready(); });
@@ -271,9 +282,13 @@ void LiveRun::start_clock() {
     check_trouble();
   }
   crew_->launch_commands();
+  canary_->start();
 }
 
 void LiveRun::stop_all() {
+  if (canary_) {
+    canary_->stop();
+  }
   if (const auto& fleet = memories_.fleet_reader()) {
     for (const auto& node : plan_.nodes) {
       commands_.push_back(fleet->commands(node.index));

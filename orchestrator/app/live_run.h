@@ -17,6 +17,7 @@
 #include "orchestrator/app/run_memories.h"
 #include "orchestrator/app/service.h"
 #include "orchestrator/netlink/send_stamps.h"
+#include "orchestrator/node/canary.h"
 #include "orchestrator/node/fleet.h"
 #include "orchestrator/node/rights.h"
 #include "orchestrator/plan/plan.h"
@@ -75,6 +76,10 @@ class LiveRun {
   [[nodiscard]] std::optional<shm::CommandTally> commands(std::uint32_t node) const;
   /// The longest time in flight for which nobody looked after the run.
   [[nodiscard]] std::chrono::nanoseconds longest_gap() const noexcept { return longest_gap_; }
+  /// What the canary has seen, once it is quiet; null before there is one.
+  [[nodiscard]] const node::CanaryTally* canary() const noexcept {
+    return canary_ ? &canary_->tally() : nullptr;
+  }
   /// The nodes' inits, by node, for the registry; empty before they are built.
   [[nodiscard]] std::vector<pid_t> init_pids() const;
   /// Told once the nodes are there.
@@ -129,6 +134,7 @@ class LiveRun {
   std::optional<netlink::SendStampRing> send_stamps_;
   std::unique_ptr<node::Fleet> fleet_;
   std::unique_ptr<LinkFollower> links_;
+  std::unique_ptr<node::Canary> canary_;
   std::unique_ptr<Service> netsim_;
   std::unique_ptr<NodeCrew> crew_;
 };

@@ -4,7 +4,6 @@
 #include <sched.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -13,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "orchestrator/netlink/offloads.h"
 #include "orchestrator/node/node_identity.h"
 
 namespace cuscus::node {
@@ -78,79 +76,14 @@ bool Node::await_ready(std::chrono::milliseconds limit) {
   }
 }
 
-std::string Node::link_name(const char* prefix) const {
-  return prefix + std::to_string(network_.index);
-}
-
-void Node::build_bridged(const Fabric& fabric, netlink::RouteSocket& fabric_routes) {
-  const std::string bridge = link_name("br");
-  const std::string tap = link_name("tap");
-  fabric_routes.create_bridge(bridge, network_.mtu_bytes);
-  const std::uint32_t bridge_index = fabric_routes.index_of(bridge);
-  tap_ = netlink::TapDevice::create_in(fabric.network_namespace(), tap);
-  fabric_routes.change_link(tap, {.mtu_bytes = network_.mtu_bytes,
-                                  .queue_frames = network_.queue_frames,
-                                  .master_index = bridge_index,
-                                  .up = true});
-  fabric_routes.create_veth({.name = link_name("veth"),
-                             .peer_name = kInterface,
-                             .peer_mac = network_.mac,
-                             .mtu_bytes = network_.mtu_bytes,
-                             .queue_frames = network_.queue_frames,
-                             .master_index = bridge_index},
-                            *namespace_);
-}
-
 void Node::build_links(const Fabric& fabric, netlink::RouteSocket& fabric_routes,
                        const Surroundings& surroundings) {
-  try {
-    if (network_.attachment == Attachment::kBridge) {
-      build_bridged(fabric, fabric_routes);
-    }
-    namespace_->run([&] { configure_interface(surroundings); });
-  } catch (const std::exception& error) {
-    throw std::runtime_error{network_.name + ": " + error.what()};
-  }
-}
-
-/// Runs on a thread inside the node's network namespace.
-void Node::configure_interface(const Surroundings& surroundings) {
-  netlink::RouteSocket routes;
-  if (network_.attachment == Attachment::kDirect) {
-    tap_ = netlink::TapDevice::create(kInterface);
-    routes.change_link(kInterface, {.mac = network_.mac,
-                                    .mtu_bytes = network_.mtu_bytes,
-                                    .queue_frames = network_.queue_frames});
-  }
-  const std::uint32_t index = routes.index_of(kInterface);
-  netlink::disable_offloads(kInterface);
-  if (surroundings.send_stamps != nullptr) {
-    surroundings.send_stamps->attach(routes, index, network_.index);
-  }
-  routes.change_link(kInterface, {.up = true});
-  routes.add_address(index, network_.address);
-  // Programs that announce themselves to everybody, or to a group, have no default route to do so.
-  routes.add_link_route(index, {.address = {255, 255, 255, 255}, .length = 32});
-  routes.add_link_route(index, {.address = {224, 0, 0, 0}, .length = 4});
-  std::vector<netlink::Neighbour> others;
-  std::ranges::copy_if(surroundings.neighbours, std::back_inserter(others),
-                       [&](const netlink::Neighbour& neighbour) {
-                         return neighbour.address != network_.address.address;
-                       });
-  routes.add_neighbours(index, others);
-  create_monitor(routes);
-}
-
-/// What a program sends to mon0 goes nowhere: one frame waits, the others are dropped.
-void Node::create_monitor(netlink::RouteSocket& routes) {
-  monitor_ = netlink::MonitorDevice::create(kMonitorInterface);
-  routes.change_link(kMonitorInterface, {.queue_frames = 1, .up = network_.monitor});
+  tap_ = node::build_links(network_, *namespace_, fabric, fabric_routes, surroundings);
+  monitor_ = build_monitor(network_, *namespace_);
 }
 
 netlink::LinkCounters Node::tap_counters(const Fabric& fabric) const {
-  return network_.attachment == Attachment::kBridge
-             ? netlink::RouteSocket::in(fabric.network_namespace()).counters_of(link_name("tap"))
-             : netlink::RouteSocket::in(*namespace_).counters_of(kInterface);
+  return node::tap_counters(network_, *namespace_, fabric);
 }
 
 void Node::launch(const proto::Launch& launch, int output_fd, int program_control_fd) {

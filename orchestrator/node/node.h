@@ -5,64 +5,30 @@
 #include <chrono>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "common/ipc/control_socket.h"
 #include "common/posix/child_process.h"
 #include "common/posix/network_namespace.h"
 #include "common/posix/unique_fd.h"
-#include "orchestrator/netlink/addresses.h"
 #include "orchestrator/netlink/monitor_device.h"
 #include "orchestrator/netlink/route_socket.h"
-#include "orchestrator/netlink/send_stamps.h"
 #include "orchestrator/netlink/tap_device.h"
 #include "orchestrator/node/fabric.h"
+#include "orchestrator/node/node_links.h"
 #include "proto/control.pb.h"
 
 namespace cuscus::node {
 
-/// How a node's wlan0 is connected to netsim.
-enum class Attachment {
-  kBridge,  ///< Fabric: TAP - bridge - veth; node: wlan0 is the other end. Others can join.
-  kDirect,  ///< The TAP itself is wlan0: half the delay, two thirds of the CPU.
-};
-
-/// The interface that a node's programs use.
-inline constexpr const char* kInterface = "wlan0";
-
-/// Where they can see what its radio sends and receives.
-inline constexpr const char* kMonitorInterface = "mon0";
-
 /// What every node has of its own, as flags of clone3() and setns().
 inline constexpr int kNodeNamespaces =
     CLONE_NEWNET | CLONE_NEWPID | CLONE_NEWNS | CLONE_NEWUTS | CLONE_NEWIPC;
-
-/// One node's place in the network.
-struct NodeNetwork {
-  std::uint32_t index{};  ///< 0 to kMaximumNodes - 1; names the links in the fabric.
-  std::string name;       ///< Host name, such as "uav3".
-  netlink::MacAddress mac{};
-  netlink::Ipv4Prefix address{};
-  std::uint32_t mtu_bytes{1500};
-  std::uint32_t queue_frames{
-      1000};  ///< txqueuelen: beyond it the TAP drops what netsim is late for.
-  Attachment attachment{Attachment::kBridge};
-  bool ipv6{false};     ///< Off: no frame leaves that nobody sent.
-  bool monitor{false};  ///< mon0 is up from the start.
-};
 
 /// What all inits of a run are started with.
 struct InitProgram {
   std::string path;   ///< cuscus-init.
   int hosts_fd{-1};   ///< A file that has the node's /etc/hosts; -1: they keep the host's.
   int output_fd{-1};  ///< Takes what inits have to complain about; -1: the caller's own.
-};
-
-/// What nodes have in common besides the fabric.
-struct Surroundings {
-  std::span<const netlink::Neighbour> neighbours{};  ///< Permanent ones; empty: nodes use ARP.
-  const netlink::SendStampRing* send_stamps{};       ///< Null: no stamps.
 };
 
 /// cuscus-init, beside the running executable.
@@ -118,10 +84,6 @@ class Node {
  private:
   Node(NodeNetwork network, const InitProgram& program, ipc::ControlSocket own,
        ipc::ControlSocket init_end);
-  void build_bridged(const Fabric& fabric, netlink::RouteSocket& fabric_routes);
-  void configure_interface(const Surroundings& surroundings);
-  void create_monitor(netlink::RouteSocket& routes);
-  [[nodiscard]] std::string link_name(const char* prefix) const;
 
   NodeNetwork network_;
   ipc::ControlSocket control_;

@@ -39,6 +39,8 @@ constexpr ShareLimits kStepsLateByEight{
     .valid_percent = 0.1, .degraded_percent = 1.0, .forgiven = 25};
 constexpr ShareLimits kOverruns{.valid_percent = 1.0, .degraded_percent = 10.0, .forgiven = 10};
 constexpr ShareLimits kLost{.valid_percent = 0.0, .degraded_percent = 0.1, .forgiven = 0};
+constexpr ShareLimits kCanaryLate{.valid_percent = 1.0, .degraded_percent = 10.0, .forgiven = 3};
+constexpr ShareLimits kCanaryLost{.valid_percent = 1.0, .degraded_percent = 10.0, .forgiven = 1};
 constexpr ShareLimits kUnstamped{.valid_percent = 0.1, .degraded_percent = 1.0, .forgiven = 3};
 
 constexpr double kLongestValid_ms = 50.0;      // the beacon period of the paper's experiments
@@ -61,6 +63,7 @@ class Judge {
     radio();
     world();
     agents();
+    canary();
     host();
     std::stable_sort(reasons_.begin(), reasons_.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -150,6 +153,15 @@ class Judge {
           HUGE_VAL);
     count("sensors_lost", "UAVs that landed, their readings being late:", inputs_.sensors_lost,
           0.0);
+  }
+
+  void canary() {
+    if (!inputs_.canary) {
+      return;
+    }
+    late_share("canary_later_than_8ms", "probes seen", inputs_.canary->late, kEightMilliseconds,
+               kCanaryLate);
+    share("canary_lost", "probes lost", inputs_.canary->lost, inputs_.canary->sent, kCanaryLost);
   }
 
   void host() {
@@ -303,6 +315,10 @@ Json to_json(const Fidelity& fidelity, const FidelityInputs& inputs) {
           {"failures", inputs.failures},
           {"radio", inputs.radio ? json_of(*inputs.radio) : Json(nullptr)},
           {"world", inputs.world ? json_of(*inputs.world) : Json(nullptr)},
+          {"canary", inputs.canary ? Json{{"sent", inputs.canary->sent},
+                                          {"lost", inputs.canary->lost},
+                                          {"late", json_of(inputs.canary->late)}}
+                                   : Json(nullptr)},
           {"tap_drops", inputs.tap_drops},
           {"agent_loops", inputs.agent_loops},
           {"agent_overruns", inputs.agent_overruns},

@@ -17,10 +17,19 @@ enum class Verdict { kValid, kDegraded, kInvalid };
 /// "VALID", "DEGRADED", "INVALID"
 [[nodiscard]] std::string name_of(Verdict verdict);
 
+/// What the hidden pair of probes has seen: datagrams that were sent, lost, and seen so much later
+/// than their link's delay.
+struct CanarySight {
+  std::uint64_t sent{};
+  std::uint64_t lost{};
+  proto::DurationSummary late;
+};
+
 /// What is known of a run at its end.
 struct FidelityInputs {
   std::optional<proto::RadioReport> radio;  ///< Nothing: netsim gave none.
   std::optional<proto::WorldReport> world;
+  std::optional<CanarySight> canary;  ///< Nothing: it has not been looked at yet.
   /// What ended that should not have, in words: "netsim: killed by signal 9". Programs whose
   /// on_exit is "fail" are here too.
   std::vector<std::string> failures;

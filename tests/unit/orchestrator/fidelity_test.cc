@@ -181,6 +181,23 @@ const std::vector<Case> kCases{
      "the host was suspended for 3e+03 ms"},
     {"a stopped orchestrator", [](auto& in) { in.longest_supervision_gap = 10s; },
      Verdict::kDegraded, "cuscus itself did not run for"},
+    {"a canary that was late about once in a hundred times",
+     [](auto& in) {
+       in.canary = {
+           .sent = 1'237, .lost = 1, .late = durations({{17, 1'224}, {24, 12}}, 20'000'000)};
+     },
+     Verdict::kValid, ""},
+    {"a canary that was seen late once in twenty times",
+     [](auto& in) {
+       in.canary = {
+           .sent = 1'200, .lost = 0, .late = durations({{17, 1'140}, {24, 60}}, 20'000'000)};
+     },
+     Verdict::kDegraded, "probes seen more than 8.39 ms late: 60 of 1200, 5 % (valid: up to 1 %)"},
+    {"a canary that is lost",
+     [](auto& in) {
+       in.canary = {.sent = 100, .lost = 20, .late = durations({{17, 80}}, 200'000)};
+     },
+     Verdict::kInvalid, "probes lost: 20 of 100, 20 %"},
     {"a run in which nothing was sent",
      [](auto& in) {
        set_release(in, {});
@@ -319,6 +336,7 @@ TEST_CASE("fidelity.json has the verdict, every limit and the raw reports") {
   }
   CHECK(json.at("radio").at("release_lateness").at("count") == 120'000);
   CHECK(json.at("world").at("steps") == 60'000);
+  CHECK(json.at("canary").is_null());
 
   FidelityInputs nothing;
   CHECK(to_json(judge(nothing), nothing).at("radio").is_null());
