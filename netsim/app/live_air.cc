@@ -105,6 +105,7 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
     recorder_.emplace(frames_, std::move(setup.captures), std::move(setup.monitors));
     monitors_.add(*recorder_);
   }
+  tell_programs(setup);
   if (setup.reception_log) {
     receptions_.emplace(std::move(setup.reception_log), setup.air, setup.names, positions);
     monitors_.add(*receptions_);
@@ -113,6 +114,23 @@ LiveAir::LiveAir(LiveSetup setup, PositionSource& positions)
     watch(wake_, stamps_->fd(), static_cast<std::uint32_t>(Wake::kStamps));
   } else {
     watch(wake_, taps_.get(), static_cast<std::uint32_t>(Wake::kTaps));
+  }
+}
+
+void LiveAir::tell_programs(const LiveSetup& setup) {
+  const DecibelMilliwatt noise = receiver_noise(setup.air);
+  const auto threshold_dbm = static_cast<float>(reception_threshold(setup.air, noise).value);
+  std::vector<std::optional<shm::RadioReadingsWriter>> readings(air_->node_count());
+  bool any = false;
+  for (std::size_t node = 0; node < setup.radio_readings.size(); ++node) {
+    if (!setup.radio_readings[node].empty()) {
+      readings.at(node).emplace(setup.radio_readings[node], air_->node_count(), threshold_dbm);
+      any = true;
+    }
+  }
+  if (any) {
+    neighbours_.emplace(std::move(readings), noise);
+    monitors_.add(*neighbours_);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "netsim/app/frame_log.h"
 #include "netsim/app/frame_store.h"
 #include "netsim/app/link_counts.h"
+#include "netsim/app/neighbour_readings.h"
 #include "netsim/app/ppdu_recorder.h"
 #include "netsim/app/reception_log.h"
 #include "netsim/app/stamp_matcher.h"
@@ -37,8 +38,10 @@ struct LiveSetup {
   std::unique_ptr<CaptureFiles> captures;    ///< None: no captures.
   std::unique_ptr<MonitorDevices> monitors;  ///< None: no monitor interfaces.
   std::span<std::byte> radio_memory{};       ///< Empty: nothing is published.
-  posix::UniqueFd reception_log{};           ///< Empty: none.
-  std::vector<std::string> names{};          ///< Of the nodes, for the reception log.
+  /// By node, what its program may read of its radio; nothing and empty: nobody asks.
+  std::vector<std::span<std::byte>> radio_readings{};
+  posix::UniqueFd reception_log{};   ///< Empty: none.
+  std::vector<std::string> names{};  ///< Of the nodes, for the reception log.
 };
 
 /// Whoever runs a LiveAir.
@@ -110,6 +113,7 @@ class LiveAir final : private AirListener {
   void write_one_copy();
   void lose_copy(const DueCopy& copy, logs::Cause cause);
   void close_logs();
+  void tell_programs(const LiveSetup& setup);
 
   void housekeep(LiveOwner& owner, std::int64_t now);
   void publish(std::uint32_t first, std::uint32_t count);
@@ -122,6 +126,7 @@ class LiveAir final : private AirListener {
   std::optional<shm::RadioMemoryWriter> radio_memory_;
   FrameStore frames_;
   std::optional<LinkCounts> link_counts_;
+  std::optional<NeighbourReadings> neighbours_;
   std::optional<ReceptionLog> receptions_;
   std::optional<PpduRecorder> recorder_;  ///< When there are captures or monitor interfaces.
   AirMonitors monitors_;

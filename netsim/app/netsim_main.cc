@@ -63,6 +63,7 @@ struct Memories {
   MemoryMapping clock;
   MemoryMapping fleet;
   MemoryMapping radio;
+  std::vector<MemoryMapping> readings;
 };
 
 /// Null when no node is captured.
@@ -102,6 +103,22 @@ std::unique_ptr<netsim::MonitorDevices> take_monitors(ChildSession& session,
                                                   netsim::PpduEncoder{setup.air, setup.addresses});
 }
 
+/// Memory for what a node's radio tells its program, if that node has one that asks.
+std::span<std::byte> take_readings(ChildSession& session, std::uint32_t node,
+                                   std::uint32_t node_count, Memories& memories) {
+  const auto fd = session.take_if_given(proto::Descriptors::KIND_RADIO_READINGS, node);
+  if (!fd) {
+    return {};
+  }
+  memories.readings.push_back(MemoryMapping::read_write(*fd));
+  const auto bytes = memories.readings.back().writable_bytes();
+  if (bytes.size() != shm::RadioReadingsWriter::byte_size(node_count)) {
+    throw std::runtime_error{"radio readings of node " + std::to_string(node) + " have " +
+                             std::to_string(bytes.size()) + " B"};
+  }
+  return bytes;
+}
+
 netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfiguration& configuration,
                              Memories& memories) {
   using Kind = proto::Descriptors;
@@ -125,6 +142,7 @@ netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfigurat
       spdlog::warn("node {} ('{}') has no TAP and stays silent", node.node(), node.name());
     }
     setup.taps.push_back(tap ? std::move(*tap) : posix::UniqueFd{});
+    setup.radio_readings.push_back(take_readings(session, node.node(), nodes, memories));
   }
   setup.canary_delay = netsim::Duration{configuration.canary_delay_ns()};
   for (std::uint32_t end = 0; configuration.canary_delay_ns() > 0 && end < 2; ++end) {

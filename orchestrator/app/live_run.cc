@@ -228,6 +228,9 @@ void LiveRun::start_netsim() {
   if (settings_.frame_log) {
     given.push_back({Descriptors::KIND_FRAME_LOG, 0, settings_.frame_log.get()});
   }
+  for (const std::uint32_t node : vehicles_of(plan_)) {
+    given.push_back({Descriptors::KIND_RADIO_READINGS, node, memories_.radio_readings(node)});
+  }
   if (settings_.reception_log) {
     given.push_back({Descriptors::KIND_RECEPTION_LOG, 0, settings_.reception_log.get()});
   }

@@ -200,6 +200,8 @@ void NodeCrew::configure(NodeProgram& program) {
     given.push_back({Descriptors::KIND_SENSOR_MEMORY, node.index, memories.sensors(node.index)});
     given.push_back(
         {Descriptors::KIND_ACTUATOR_MEMORY, node.index, memories.actuators(node.index)});
+    given.push_back(
+        {Descriptors::KIND_RADIO_READINGS, node.index, memories.radio_readings(node.index)});
     if (node.sees_motion_capture) {
       given.push_back({Descriptors::KIND_MOTION_CAPTURE_MEMORY, 0, memories.motion_capture()});
     }

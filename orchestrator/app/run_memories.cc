@@ -1,6 +1,7 @@
 #include "orchestrator/app/run_memories.h"
 
 #include "proto/shm/motion_capture_memory.h"
+#include "proto/shm/radio_readings.h"
 #include "proto/shm/vehicle_memory.h"
 
 namespace cuscus::orchestrator {
@@ -20,6 +21,8 @@ RunMemories::RunMemories(std::uint32_t node_count, const std::vector<std::uint32
   seal_against_new_writers(clock_);
   for (const std::uint32_t node : vehicles) {
     sensors_[node] = create_shared_memory("cuscus-sensors", shm::SensorMemoryWriter::byte_size());
+    radio_readings_[node] = create_shared_memory("cuscus-radio-readings",
+                                                 shm::RadioReadingsWriter::byte_size(node_count));
     auto& actuators = actuators_[node] =
         create_shared_memory("cuscus-actuators", shm::ActuatorMemoryWriter::byte_size());
     shm::ActuatorMemoryWriter::lay_out(MemoryMapping::read_write(actuators).writable_bytes());
@@ -38,6 +41,9 @@ void RunMemories::world_has_mapped() {
 
 void RunMemories::netsim_has_mapped() {
   seal_against_new_writers(radio_);
+  for (const auto& [node, memory] : radio_readings_) {
+    seal_against_new_writers(memory);
+  }
   radio_mapping_ = MemoryMapping::read_only(radio_);
   radio_reader_.emplace(radio_mapping_.bytes());
 }

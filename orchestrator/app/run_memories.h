@@ -25,6 +25,9 @@ class RunMemories {
   [[nodiscard]] int radio() const noexcept { return radio_.get(); }
   [[nodiscard]] int motion_capture() const noexcept { return motion_capture_.get(); }
   [[nodiscard]] int sensors(std::uint32_t node) const { return sensors_.at(node).get(); }
+  [[nodiscard]] int radio_readings(std::uint32_t node) const {
+    return radio_readings_.at(node).get();
+  }
   [[nodiscard]] int actuators(std::uint32_t node) const { return actuators_.at(node).get(); }
 
   /// Sets SimTime 0.
@@ -52,6 +55,7 @@ class RunMemories {
   posix::UniqueFd motion_capture_;
   std::map<std::uint32_t, posix::UniqueFd> sensors_;
   std::map<std::uint32_t, posix::UniqueFd> actuators_;
+  std::map<std::uint32_t, posix::UniqueFd> radio_readings_;
   posix::MemoryMapping fleet_mapping_;
   posix::MemoryMapping radio_mapping_;
   std::optional<shm::FleetMemoryReader> fleet_reader_;

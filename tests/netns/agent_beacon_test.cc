@@ -24,17 +24,21 @@ constexpr std::uint32_t kPort = 4711;
 class StandingVehicle final : public sdk::Vehicle,
                               private sdk::Clock,
                               private sdk::Sensors,
-                              private sdk::Actuators {
+                              private sdk::Actuators,
+                              private sdk::Radio {
  public:
   SimTime time;
 
   [[nodiscard]] const sdk::Clock& clock() const override { return *this; }
   [[nodiscard]] const sdk::Sensors& sensors() const override { return *this; }
   [[nodiscard]] sdk::Actuators& actuators() override { return *this; }
+  [[nodiscard]] const sdk::Radio& radio() const override { return *this; }
   [[nodiscard]] const sdk::FleetMotionCapture* fleet() const override { return nullptr; }
 
  private:
   [[nodiscard]] SimTime now() const override { return time; }
+  [[nodiscard]] std::vector<sdk::Neighbour> neighbours() const override { return {}; }
+  [[nodiscard]] std::optional<Decibel> link_budget(std::uint32_t) const override { return {}; }
   void sleep_until(SimTime) const override {}
   [[nodiscard]] std::optional<sdk::ImuReading> imu() const override {
     return sdk::ImuReading{.time = time, .specific_force_B_mps2 = {0.0, 0.0, 9.81}};

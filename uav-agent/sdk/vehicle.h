@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "common/units/decibel.h"
 #include "common/units/sim_time.h"
 #include "uav-agent/flight/readings.h"
 
@@ -40,6 +42,37 @@ class FleetMotionCapture {
       std::uint32_t node) const = 0;
 };
 
+/// What a vehicle's radio knows of another one, from the frames that it has decoded.
+struct Neighbour {
+  std::uint32_t node{};  ///< As the run numbers its nodes.
+  SimTime heard;         ///< When the latest frame was over.
+  SimClock::duration age{};
+  std::uint64_t frames{};       ///< So far.
+  DecibelMilliwatt received{};  ///< RSSI of the latest.
+  DecibelMilliwatt mean{};      ///< Weighs the latest by 1/8 and the mean before it by 7/8.
+  Decibel snr{};                ///< Of the latest.
+  std::uint32_t rate_kbps{};    ///< Of the latest.
+};
+
+/// The vehicle's radio. What it tells, a real one could tell too: it knows nobody whom it has not
+/// heard.
+class Radio {
+ public:
+  virtual ~Radio() = default;
+  /// Everybody heard so far, by number; those that fell silent grow old.
+  [[nodiscard]] virtual std::vector<Neighbour> neighbours() const = 0;
+  /// How much weaker the latest frame of `node` could have been and still have been received:
+  ///
+  ///   LB(i, j) = Pr_j^i - RS_thr^i
+  ///
+  /// with Pr its received power and RS_thr this receiver's threshold. Nothing when `node` was never
+  /// heard.
+  ///
+  /// Source: N. R. Zema et al., "The CUSCUS simulator for distributed networked control systems",
+  /// Ad Hoc Networks 68 (2018), equation 11.
+  [[nodiscard]] virtual std::optional<Decibel> link_budget(std::uint32_t node) const = 0;
+};
+
 /// The motors. A vehicle stops them by itself when commands stay away (FL-AIR: 100 ms), so that a
 /// program sends one every control period.
 class Actuators {
@@ -57,6 +90,7 @@ class Vehicle {
   [[nodiscard]] virtual const Clock& clock() const = 0;
   [[nodiscard]] virtual const Sensors& sensors() const = 0;
   [[nodiscard]] virtual Actuators& actuators() = 0;
+  [[nodiscard]] virtual const Radio& radio() const = 0;
   /// Null where the vehicle cannot see the rest of its fleet.
   [[nodiscard]] virtual const FleetMotionCapture* fleet() const = 0;
 };

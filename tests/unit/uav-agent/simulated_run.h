@@ -11,6 +11,7 @@
 #include "proto/control.pb.h"
 #include "proto/shm/clock_page.h"
 #include "proto/shm/motion_capture_memory.h"
+#include "proto/shm/radio_readings.h"
 #include "proto/shm/vehicle_memory.h"
 
 namespace cuscus::tests {
@@ -34,13 +35,15 @@ class SimulatedRun {
     name(Descriptors::KIND_CLOCK_PAGE, 0);
     name(Descriptors::KIND_SENSOR_MEMORY, kNode);
     name(Descriptors::KIND_ACTUATOR_MEMORY, kNode);
+    name(Descriptors::KIND_RADIO_READINGS, kNode);
     name(Descriptors::KIND_MOTION_CAPTURE_MEMORY, 0);
-    const std::array fds{clock_fd_.get(), sensor_fd_.get(), actuator_fd_.get(), fleet_fd_.get()};
+    const std::array fds{clock_fd_.get(), sensor_fd_.get(), actuator_fd_.get(), radio_fd_.get(),
+                         fleet_fd_.get()};
     if (with_fleet) {
       orchestrator.send(envelope, fds);
     } else {
       items->mutable_items()->RemoveLast();
-      orchestrator.send(envelope, std::span{fds}.first(3));
+      orchestrator.send(envelope, std::span{fds}.first(4));
     }
     proto::Envelope configure;
     *configure.mutable_configure()->mutable_agent() = configuration;
@@ -89,10 +92,13 @@ class SimulatedRun {
       posix::create_shared_memory("actuators", shm::ActuatorMemoryWriter::byte_size());
   posix::UniqueFd fleet_fd_ =
       posix::create_shared_memory("fleet", shm::MotionCaptureMemoryWriter::byte_size(kNodes));
+  posix::UniqueFd radio_fd_ =
+      posix::create_shared_memory("radio", shm::RadioReadingsWriter::byte_size(kNodes));
   posix::MemoryMapping clock_map_ = posix::MemoryMapping::read_write(clock_fd_);
   posix::MemoryMapping sensor_map_ = posix::MemoryMapping::read_write(sensor_fd_);
   posix::MemoryMapping actuator_map_ = laid_out(actuator_fd_);
   posix::MemoryMapping fleet_map_ = posix::MemoryMapping::read_write(fleet_fd_);
+  posix::MemoryMapping radio_map_ = posix::MemoryMapping::read_write(radio_fd_);
 
  public:
   ipc::ControlSocket& orchestrator = sockets_.first;
@@ -101,6 +107,8 @@ class SimulatedRun {
   shm::ClockPageWriter clock{clock_map_.writable_bytes()};
   shm::SensorMemoryWriter sensors{sensor_map_.writable_bytes()};
   shm::MotionCaptureMemoryWriter fleet{fleet_map_.writable_bytes(), kNodes};
+  /// Its threshold is -82 dBm.
+  shm::RadioReadingsWriter radio{radio_map_.writable_bytes(), kNodes, -82.0F};
   shm::ActuatorMemoryReader actuators{actuator_map_.bytes()};
 };
 

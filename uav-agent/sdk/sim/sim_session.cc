@@ -24,6 +24,9 @@ SimVehicle::Memories mapped(ipc::ChildSession& session, std::uint32_t node) {
   if (const auto fleet = session.take_if_given(Descriptors::KIND_MOTION_CAPTURE_MEMORY)) {
     memories.fleet = MemoryMapping::read_only(*fleet);
   }
+  if (const auto radio = session.take_if_given(Descriptors::KIND_RADIO_READINGS, node)) {
+    memories.radio = MemoryMapping::read_only(*radio);
+  }
   return memories;
 }
 

@@ -36,10 +36,14 @@ SimVehicle::SimVehicle(Memories memories)
       sensor_mapping_{std::move(memories.sensors)},
       actuator_mapping_{std::move(memories.actuators)},
       fleet_mapping_{std::move(memories.fleet)},
+      radio_mapping_{std::move(memories.radio)},
       sensor_reader_{sensor_mapping_.bytes()},
       actuator_writer_{actuator_mapping_.writable_bytes()} {
   if (fleet_mapping_) {
     fleet_reader_.emplace(fleet_mapping_->bytes());
+  }
+  if (radio_mapping_) {
+    radio_reader_.emplace(radio_mapping_->bytes());
   }
 }
 
@@ -67,6 +71,36 @@ std::optional<MotionCaptureReading> SimVehicle::motion_capture_of(std::uint32_t 
   }
   const auto reading = fleet_reader_->reading(node);
   return reading ? std::optional{converted(*reading)} : std::nullopt;
+}
+
+std::vector<Neighbour> SimVehicle::neighbours() const {
+  std::vector<Neighbour> neighbours;
+  const std::uint32_t nodes = radio_reader_ ? radio_reader_->node_count() : 0;
+  for (std::uint32_t node = 0; node < nodes; ++node) {
+    if (const auto reading = radio_reader_->neighbour(node)) {
+      const SimTime heard = sim_time(reading->sim_time_ns);
+      neighbours.push_back({.node = node,
+                            .heard = heard,
+                            .age = std::max(clock_.now() - heard, SimClock::duration{0}),
+                            .frames = reading->frames,
+                            .received = {reading->received_dbm},
+                            .mean = {reading->mean_dbm},
+                            .snr = {reading->snr_db},
+                            .rate_kbps = reading->rate_kbps});
+    }
+  }
+  return neighbours;
+}
+
+std::optional<Decibel> SimVehicle::link_budget(std::uint32_t node) const {
+  if (!radio_reader_ || node >= radio_reader_->node_count()) {
+    return std::nullopt;
+  }
+  const auto reading = radio_reader_->neighbour(node);
+  if (!reading) {
+    return std::nullopt;
+  }
+  return DecibelMilliwatt{reading->received_dbm} - DecibelMilliwatt{radio_reader_->threshold_dbm()};
 }
 
 void SimVehicle::set_motors(const MotorCommands& commands, SimTime now) {

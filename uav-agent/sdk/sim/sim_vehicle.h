@@ -6,6 +6,7 @@
 #include "common/posix/shared_memory.h"
 #include "proto/shm/clock_page.h"
 #include "proto/shm/motion_capture_memory.h"
+#include "proto/shm/radio_readings.h"
 #include "proto/shm/vehicle_memory.h"
 #include "uav-agent/sdk/vehicle.h"
 
@@ -30,13 +31,15 @@ class SimulatedClock final : public Clock {
 class SimVehicle final : public Vehicle,
                          private Sensors,
                          private Actuators,
-                         private FleetMotionCapture {
+                         private FleetMotionCapture,
+                         private Radio {
  public:
   struct Memories {
     posix::MemoryMapping clock_page;
     posix::MemoryMapping sensors;
     posix::MemoryMapping actuators;               ///< Writable.
     std::optional<posix::MemoryMapping> fleet{};  ///< Motion capture of all vehicles.
+    std::optional<posix::MemoryMapping> radio{};  ///< Without, the radio hears nobody.
   };
 
   /// @throws shm::LayoutError when a memory is not what it should be.
@@ -45,6 +48,7 @@ class SimVehicle final : public Vehicle,
   [[nodiscard]] const Clock& clock() const override { return clock_; }
   [[nodiscard]] const Sensors& sensors() const override { return *this; }
   [[nodiscard]] Actuators& actuators() override { return *this; }
+  [[nodiscard]] const Radio& radio() const override { return *this; }
   [[nodiscard]] const FleetMotionCapture* fleet() const override {
     return fleet_reader_ ? this : nullptr;
   }
@@ -54,15 +58,19 @@ class SimVehicle final : public Vehicle,
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture() const override;
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture_of(
       std::uint32_t node) const override;
+  [[nodiscard]] std::vector<Neighbour> neighbours() const override;
+  [[nodiscard]] std::optional<Decibel> link_budget(std::uint32_t node) const override;
   void set_motors(const MotorCommands& commands, SimTime now) override;
 
   SimulatedClock clock_;
   posix::MemoryMapping sensor_mapping_;
   posix::MemoryMapping actuator_mapping_;
   std::optional<posix::MemoryMapping> fleet_mapping_;
+  std::optional<posix::MemoryMapping> radio_mapping_;
   shm::SensorMemoryReader sensor_reader_;
   shm::ActuatorMemoryWriter actuator_writer_;
   std::optional<shm::MotionCaptureMemoryReader> fleet_reader_;
+  std::optional<shm::RadioReadingsReader> radio_reader_;
   std::uint64_t command_sequence_ = 0;
 };
 

@@ -17,7 +17,8 @@ class ScriptedVehicle final : public sdk::Vehicle,
                               private sdk::Clock,
                               private sdk::Sensors,
                               private sdk::Actuators,
-                              private sdk::FleetMotionCapture {
+                              private sdk::FleetMotionCapture,
+                              private sdk::Radio {
  public:
   SimTime time;
   std::optional<sdk::ImuReading> inertial;
@@ -28,6 +29,7 @@ class ScriptedVehicle final : public sdk::Vehicle,
   [[nodiscard]] const sdk::Clock& clock() const override { return *this; }
   [[nodiscard]] const sdk::Sensors& sensors() const override { return *this; }
   [[nodiscard]] sdk::Actuators& actuators() override { return *this; }
+  [[nodiscard]] const sdk::Radio& radio() const override { return *this; }
   [[nodiscard]] const sdk::FleetMotionCapture* fleet() const override { return this; }
 
   void stand_at(SimTime now) {
@@ -38,6 +40,8 @@ class ScriptedVehicle final : public sdk::Vehicle,
 
  private:
   [[nodiscard]] SimTime now() const override { return time; }
+  [[nodiscard]] std::vector<sdk::Neighbour> neighbours() const override { return {}; }
+  [[nodiscard]] std::optional<Decibel> link_budget(std::uint32_t) const override { return {}; }
   void sleep_until(SimTime) const override {}
   [[nodiscard]] std::optional<sdk::ImuReading> imu() const override { return inertial; }
   [[nodiscard]] std::optional<sdk::MotionCaptureReading> motion_capture() const override {

@@ -70,6 +70,32 @@ TEST_CASE("a vehicle shows what the world writes, and its commands reach the wor
   CHECK(command.motors == std::array{0.5, 0.6, 0.7, 0.8, 0.0, 0.0, 0.0, 0.0});
 }
 
+TEST_CASE("a vehicle knows those whom its radio has heard, and how much their links can lose") {
+  SimulatedRun run;
+  run.configure(configuration());
+  ipc::ChildSession child{std::move(run.program)};
+  SimSession session{child};
+  const Radio& radio = session.vehicle().radio();
+  CHECK(radio.neighbours().empty());
+  CHECK_FALSE(radio.link_budget(1));
+
+  run.radio.heard(1, 7'000, -60.0F, 34.0F, 6'000);
+  run.radio.heard(1, 9'000, -52.0F, 42.0F, 54'000);
+
+  const auto neighbours = radio.neighbours();
+  REQUIRE(neighbours.size() == 1);
+  CHECK(neighbours[0].node == 1);
+  CHECK(neighbours[0].heard == sim_time(9'000));
+  CHECK(neighbours[0].frames == 2);
+  CHECK(neighbours[0].received.value == -52.0);
+  CHECK(neighbours[0].mean.value == -59.0);  // -60 + (60 - 52) / 8
+  CHECK(neighbours[0].snr.value == 42.0);
+  CHECK(neighbours[0].rate_kbps == 54'000);
+  CHECK(radio.link_budget(1).value().value == 30.0);  // -52 dBm over -82 dBm
+  CHECK_FALSE(radio.link_budget(0));
+  CHECK_FALSE(radio.link_budget(SimulatedRun::kNodes));
+}
+
 TEST_CASE("a vehicle sees its fleet only where it was given the memory") {
   const bool given = GENERATE(true, false);
   SimulatedRun run;
