@@ -15,7 +15,7 @@ PORT = 9000
 DISTANCE_M = 100.0
 TX_DBM = 16
 SIGNAL_DBM = round(TX_DBM - 40.18 - 20 * math.log10(DISTANCE_M))
-COUNT = 100
+COUNT = 50
 SENDER = """
 import socket, time
 s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

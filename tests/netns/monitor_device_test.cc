@@ -43,6 +43,10 @@ struct Listener {
   }
   void set_up() {
     space.run([] { netlink::RouteSocket{}.change_link("mon0", {.up = true}); });
+    // A socket on an interface that was down tells so first.
+    int error = 0;
+    socklen_t length = sizeof error;
+    posix::check("SO_ERROR", ::getsockopt(socket.get(), SOL_SOCKET, SO_ERROR, &error, &length));
   }
   /// The next packet; empty after 5 s without one.
   std::vector<std::uint8_t> receive() {
