@@ -13,6 +13,9 @@ namespace {
 constexpr std::uint16_t kPhaseStream = 0x1101;
 
 std::vector<Eigen::Vector3d> positions_of(const Layout& layout, std::uint32_t nodes) {
+  if (layout.kind == Layout::Kind::kGiven) {
+    return layout.p_WN_m;
+  }
   std::vector<Eigen::Vector3d> positions;
   for (std::uint32_t i = 0; i < nodes; ++i) {
     switch (layout.kind) {
@@ -34,6 +37,8 @@ std::vector<Eigen::Vector3d> positions_of(const Layout& layout, std::uint32_t no
       case Layout::Kind::kLine:
         positions.emplace_back(layout.line_spacing_m * i, 0.0, 0.0);
         break;
+      case Layout::Kind::kGiven:
+        break;
     }
   }
   return positions;
@@ -44,9 +49,8 @@ class Run final : public AirListener {
  public:
   explicit Run(const SyntheticParameters& parameters)
       : parameters_{parameters},
-        nodes_{parameters.traffic.to_sink ? parameters.senders + 1
-                                          : std::max(parameters.senders, 2U)},
-        positions_{positions_of(parameters.layout, nodes_)},
+        nodes_{node_count(parameters)},
+        positions_{positions_of(parameters.layout, nodes_), parameters.layout.q_WN},
         air_{make_air(with_nodes(parameters, nodes_), positions_, *this)},
         measured_from_{SimTime{} + parameters.warm_up},
         until_{measured_from_ + parameters.duration},
@@ -54,7 +58,7 @@ class Run final : public AirListener {
         beacons_(nodes_, 0) {}
 
   SyntheticResult run() {
-    for (std::uint32_t node = 0; node < parameters_.senders; ++node) {
+    for (const std::uint32_t node : senders()) {
       switch (parameters_.traffic.kind) {
         case Traffic::Kind::kBeacons:
           offer_next_beacon(node);
@@ -65,21 +69,21 @@ class Run final : public AirListener {
           break;
         case Traffic::Kind::kFlow:
         case Traffic::Kind::kPing:
-          if (node == 0) {
-            offer(node, SimTime{});
-          }
+          offer(node, SimTime{});
           break;
       }
     }
+    air_->run_until(measured_from_);
+    const Attempts before = attempts();
     air_->run_until(until_);
-    return result();
+    return result(before);
   }
 
   void delivered(const Delivery& delivery) override {
     if (parameters_.traffic.kind == Traffic::Kind::kPing) {
-      if (delivery.receiver == 1) {
-        offer(1, delivery.time, static_cast<std::int64_t>(delivery.id));
-      } else if (delivery.receiver == 0) {
+      if (delivery.receiver == parameters_.traffic.to) {
+        offer(delivery.receiver, delivery.time, static_cast<std::int64_t>(delivery.id));
+      } else if (delivery.receiver == parameters_.traffic.from) {
         round_trips_us_.push_back(
             to_seconds(delivery.time - sim_time(static_cast<std::int64_t>(delivery.id))) * 1e6);
       }
@@ -97,7 +101,6 @@ class Run final : public AirListener {
       ++finished_;
       frame_deliveries_ += report.deliveries;
       attempts_ += report.attempts;
-      acknowledged_ += report.outcome == SendOutcome::kAcknowledged ? 1 : 0;
       given_up_ += report.outcome == SendOutcome::kRetryLimit ? 1 : 0;
     }
     switch (parameters_.traffic.kind) {
@@ -109,16 +112,37 @@ class Run final : public AirListener {
         break;
       case Traffic::Kind::kFlow:
       case Traffic::Kind::kPing:
-        if (report.sender == 0) {
-          offer(0, std::max(air_->now(), report.sent_at + parameters_.traffic.period));
+        if (report.sender == parameters_.traffic.from) {
+          offer(report.sender, std::max(air_->now(), report.sent_at + parameters_.traffic.period));
         }
         break;
     }
   }
 
  private:
+  static std::uint32_t node_count(const SyntheticParameters& parameters) {
+    if (parameters.layout.kind == Layout::Kind::kGiven) {
+      return static_cast<std::uint32_t>(parameters.layout.p_WN_m.size());
+    }
+    return parameters.traffic.to_sink ? parameters.senders + 1 : std::max(parameters.senders, 2U);
+  }
+
+  /// Those that send of their own accord.
+  [[nodiscard]] std::vector<std::uint32_t> senders() const {
+    const Traffic& traffic = parameters_.traffic;
+    if (traffic.kind == Traffic::Kind::kFlow || traffic.kind == Traffic::Kind::kPing) {
+      return {traffic.from};
+    }
+    std::vector<std::uint32_t> all(parameters_.senders);
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
+
   static AirParameters with_nodes(const SyntheticParameters& parameters, std::uint32_t nodes) {
     AirParameters air = parameters.air;
+    if (parameters.layout.kind == Layout::Kind::kGiven) {
+      return air;
+    }
     air.nodes.assign(nodes, AirNode{});
     if (parameters.layout.kind == Layout::Kind::kEqualPower) {
       air.channel.model = "fixed";
@@ -138,15 +162,26 @@ class Run final : public AirListener {
   /// `id` says when the delay of the frame's delivery is counted from.
   void offer(std::uint32_t node, SimTime at, std::int64_t id) {
     const Traffic& traffic = parameters_.traffic;
-    std::int32_t destination = kGroup;
-    if (!traffic.group || traffic.kind == Traffic::Kind::kPing) {
-      destination = static_cast<std::int32_t>(traffic.to_sink ? nodes_ - 1 : (node + 1) % nodes_);
-    }
     air_->offer(node, at,
                 {.id = static_cast<std::uint64_t>(id),
-                 .destination = destination,
+                 .destination = destination_of(node),
                  .psdu_bytes = psdu_bytes_of_udp(traffic.udp_payload_bytes),
                  .priority = traffic.priorities[node % traffic.priorities.size()]});
+  }
+
+  [[nodiscard]] std::int32_t destination_of(std::uint32_t node) const {
+    const Traffic& traffic = parameters_.traffic;
+    const bool ping = traffic.kind == Traffic::Kind::kPing;
+    if (traffic.group && !ping) {
+      return kGroup;
+    }
+    if (traffic.to_sink) {
+      return static_cast<std::int32_t>(nodes_ - 1);
+    }
+    if (ping || traffic.kind == Traffic::Kind::kFlow) {
+      return static_cast<std::int32_t>(node == traffic.from ? traffic.to : traffic.from);
+    }
+    return static_cast<std::int32_t>((node + 1) % nodes_);
   }
 
   void offer_next_beacon(std::uint32_t node) {
@@ -162,41 +197,50 @@ class Run final : public AirListener {
     offer(node, at);
   }
 
-  SyntheticResult result() {
+  /// Data frames on the air and those of them that were acknowledged, of all nodes until now.
+  struct Attempts {
+    std::uint64_t all{0};
+    std::uint64_t acknowledged{0};
+  };
+  [[nodiscard]] Attempts attempts() const {
+    Attempts sum;
+    for (std::uint32_t node = 0; node < nodes_; ++node) {
+      sum.all += air_->tally(node).transmissions;
+      sum.acknowledged += air_->tally(node).acknowledged;
+    }
+    return sum;
+  }
+
+  SyntheticResult result(const Attempts& before) {
     SyntheticResult result;
     const double seconds = to_seconds(parameters_.duration);
     const bool group =
         parameters_.traffic.group && parameters_.traffic.kind != Traffic::Kind::kPing;
     const double receivers = group ? nodes_ - 1.0 : 1.0;
-    const double bits = 8.0 * parameters_.traffic.udp_payload_bytes;
+    const double mbps_per_reception =
+        8.0 * parameters_.traffic.udp_payload_bytes / receivers / seconds / 1e6;
     const auto ratio = [](double a, double b) { return b > 0.0 ? a / b : 0.0; };
-    result.goodput_mbps = static_cast<double>(receptions_) / receivers * bits / seconds / 1e6;
+    result.goodput_mbps = static_cast<double>(receptions_) * mbps_per_reception;
     result.delivery_ratio =
         ratio(static_cast<double>(frame_deliveries_), static_cast<double>(finished_) * receivers);
-    result.attempt_success =
-        ratio(static_cast<double>(acknowledged_), static_cast<double>(attempts_));
+    // Not of finished frames only: those that go on and on are not among them.
+    const Attempts after = attempts();
+    result.attempt_success = ratio(static_cast<double>(after.acknowledged - before.acknowledged),
+                                   static_cast<double>(after.all - before.all));
     result.attempts_per_frame =
         ratio(static_cast<double>(attempts_), static_cast<double>(finished_));
     result.drops_per_s = static_cast<double>(given_up_) / seconds;
     double sum = 0.0;
     double squares = 0.0;
-    for (std::uint32_t node = 0; node < parameters_.senders; ++node) {
-      const auto count = static_cast<double>(delivered_[node]);
-      sum += count;
-      squares += count * count;
+    for (const std::uint32_t node : senders()) {
+      const double goodput_mbps = static_cast<double>(delivered_[node]) * mbps_per_reception;
+      result.sender_goodputs_mbps.push_back(goodput_mbps);
+      sum += goodput_mbps;
+      squares += goodput_mbps * goodput_mbps;
     }
-    result.jain = ratio(sum * sum, squares * parameters_.senders);
-    std::sort(delays_us_.begin(), delays_us_.end());
-    if (!delays_us_.empty()) {
-      const auto at = [&](double q) {
-        return delays_us_[static_cast<std::size_t>(q * static_cast<double>(delays_us_.size() - 1))];
-      };
-      result.delay_mean_us = std::accumulate(delays_us_.begin(), delays_us_.end(), 0.0) /
-                             static_cast<double>(delays_us_.size());
-      result.delay_p50_us = at(0.5);
-      result.delay_p99_us = at(0.99);
-      result.delay_max_us = delays_us_.back();
-    }
+    result.jain =
+        ratio(sum * sum, squares * static_cast<double>(result.sender_goodputs_mbps.size()));
+    add_delays(result);
     result.round_trip_mean_us =
         ratio(std::accumulate(round_trips_us_.begin(), round_trips_us_.end(), 0.0),
               static_cast<double>(round_trips_us_.size()));
@@ -206,6 +250,21 @@ class Run final : public AirListener {
       result.tallies.push_back(air_->tally(node));
     }
     return result;
+  }
+
+  void add_delays(SyntheticResult& result) {
+    if (delays_us_.empty()) {
+      return;
+    }
+    std::sort(delays_us_.begin(), delays_us_.end());
+    const auto at = [&](double q) {
+      return delays_us_[static_cast<std::size_t>(q * static_cast<double>(delays_us_.size() - 1))];
+    };
+    result.delay_mean_us = std::accumulate(delays_us_.begin(), delays_us_.end(), 0.0) /
+                           static_cast<double>(delays_us_.size());
+    result.delay_p50_us = at(0.5);
+    result.delay_p99_us = at(0.99);
+    result.delay_max_us = delays_us_.back();
   }
 
   const SyntheticParameters& parameters_;
@@ -222,7 +281,6 @@ class Run final : public AirListener {
   std::uint64_t finished_{0};
   std::uint64_t frame_deliveries_{0};
   std::uint64_t attempts_{0};
-  std::uint64_t acknowledged_{0};
   std::uint64_t given_up_{0};
 };
 
