@@ -16,6 +16,7 @@
 
 #include "netsim/app/replay.h"
 #include "netsim/app/synthetic.h"
+#include "netsim/app/synthetic_table.h"
 
 namespace {
 
@@ -47,6 +48,8 @@ struct Options {
   std::string replay_file;
   std::string positions_file;
   std::string receptions_file;
+  std::string runs_file;
+  std::string out_file;
 };
 
 std::uint32_t kbps(double mbps) { return static_cast<std::uint32_t>(std::lround(mbps * 1e3)); }
@@ -148,6 +151,10 @@ void add_options(CLI::App& app, Options& o) {
   app.add_option("--receptions", o.receptions_file,
                  "For --replay: file for the simulated receptions, CSV "
                  "frame,sender,sent_ns,receiver,delivery_ns");
+  app.add_option("--runs", o.runs_file,
+                 "What `cuscus air` asks for; of the other options --out counts")
+      ->check(CLI::ExistingPath);
+  app.add_option("--out", o.out_file, "Of --runs, instead of standard output");
 }
 
 void apply(Options& o) {
@@ -190,38 +197,13 @@ void apply(Options& o) {
 }
 
 void print(const Options& o, const SyntheticResult& r, double wall_s) {
-  Tally sum;
-  for (const Tally& t : r.tallies) {
-    sum.lost_below_floor += t.lost_below_floor;
-    sum.lost_below_detection += t.lost_below_detection;
-    sum.lost_noise += t.lost_noise;
-    sum.lost_collision += t.lost_collision;
-    sum.lost_interference += t.lost_interference;
-    sum.lost_half_duplex += t.lost_half_duplex;
-    sum.dropped_queue_full += t.dropped_queue_full;
-    sum.dropped_lifetime += t.dropped_lifetime;
-    sum.dropped_retry_limit += t.dropped_retry_limit;
-    sum.dropped_too_long += t.dropped_too_long;
-  }
-  std::cout
-      << "traffic,cast,layout,nodes,payload_B,rate_kbps,group_rate_kbps,seed,measure_s,"
-         "goodput_mbps,delivery_ratio,attempt_success,attempts_per_frame,drops_per_s,jain,"
-         "delay_mean_us,delay_p50_us,delay_p99_us,delay_max_us,round_trip_us,"
-         "lost_below_floor,lost_below_detection,lost_noise,lost_collision,"
-         "lost_interference,lost_half_duplex,"
-         "dropped_queue_full,dropped_lifetime,dropped_retry_limit,dropped_too_long,"
-         "receptions,events,wall_s\n"
-      << fmt::format(
-             "{},{},{},{},{},{},{},{},{:.3f},{:.4f},{:.5f},{:.4f},{:.4f},{:.2f},{:.4f},"
-             "{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n",
-             o.traffic, o.unicast ? "ucast" : "bcast", o.layout, o.run.senders,
-             o.run.traffic.udp_payload_bytes, o.run.air.data_rate_kbps, o.run.air.group_rate_kbps,
-             o.run.air.seed, o.duration_s, r.goodput_mbps, r.delivery_ratio, r.attempt_success,
-             r.attempts_per_frame, r.drops_per_s, r.jain, r.delay_mean_us, r.delay_p50_us,
-             r.delay_p99_us, r.delay_max_us, r.round_trip_mean_us, sum.lost_below_floor,
-             sum.lost_below_detection, sum.lost_noise, sum.lost_collision, sum.lost_interference,
-             sum.lost_half_duplex, sum.dropped_queue_full, sum.dropped_lifetime,
-             sum.dropped_retry_limit, sum.dropped_too_long, r.receptions, r.events, wall_s);
+  std::cout << "traffic,cast,layout,nodes,payload_B,rate_kbps,group_rate_kbps,seed,measure_s,"
+            << result_columns() << ",events,wall_s\n"
+            << fmt::format("{},{},{},{},{},{},{},{},{:.3f},{},{},{:.3f}\n", o.traffic,
+                           o.unicast ? "ucast" : "bcast", o.layout, o.run.senders,
+                           o.run.traffic.udp_payload_bytes, o.run.air.data_rate_kbps,
+                           o.run.air.group_rate_kbps, o.run.air.seed, o.duration_s,
+                           result_fields(r), r.events, wall_s);
 }
 
 void replay_log(const Options& options, const ReplayLog& log) {
@@ -238,12 +220,33 @@ void replay_log(const Options& options, const ReplayLog& log) {
   print_replay(std::cout, log, result);
 }
 
+/// The runs of a `cuscus air`; nothing is written when the first cannot be simulated.
+void simulate(const std::string& runs_file, const std::string& out_file) {
+  std::ifstream input{runs_file, std::ios::binary};
+  proto::SyntheticRuns runs;
+  if (!runs.ParseFromIstream(&input)) {
+    throw std::invalid_argument{"'" + runs_file + "' does not hold runs"};
+  }
+  std::ofstream file;
+  print_runs(runs, [&]() -> std::ostream& {
+    if (out_file.empty()) {
+      return std::cout;
+    }
+    file.open(out_file);
+    return file;
+  });
+}
+
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"Simulates an 802.11 ad hoc network with synthetic traffic; prints CSV.",
                "cuscus-air"};
   add_options(app, options);
   CLI11_PARSE(app, argc, argv);
+  if (!options.runs_file.empty()) {
+    simulate(options.runs_file, options.out_file);
+    return 0;
+  }
   apply(options);
   if (!options.replay_file.empty()) {
     ReplayLog log = read_replay_log(options.replay_file, options.positions_file);

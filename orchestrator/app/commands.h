@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/scenario/scenario.h"
+#include "orchestrator/plan/synthetic_runs.h"
 
 /// The subcommands of `cuscus`. Each returns its exit code; UsageError and ScenarioError become
 /// exit code 2 in main, everything else 1.
@@ -28,11 +29,28 @@ struct RunArguments {
   std::optional<std::filesystem::path> out;  ///< Else runs/<run id>.
 };
 
+/// What `cuscus air` is asked for, as it was written.
+struct AirArguments {
+  ScenarioArguments scenario;
+  SyntheticRequest request;
+  std::optional<std::string> duration;
+  std::optional<std::string> period;
+  std::optional<std::string> jitter;
+  std::vector<std::uint32_t> nodes;          ///< Numbers of radio nodes; none: as in the scenario.
+  std::optional<std::filesystem::path> out;  ///< Else standard output.
+  bool plot{false};
+};
+
+/// What the command line changes of a scenario.
+[[nodiscard]] std::vector<scenario::Override> overrides_of(const ScenarioArguments& arguments);
+
 /// Loads the scenario with the command line's changes, and looks for the programs that it names.
 [[nodiscard]] scenario::Scenario load(const ScenarioArguments& arguments);
 
 int run_command(const RunArguments& arguments);
 int check_command(const ScenarioArguments& arguments, bool json);
+/// Simulates the scenario's radio and start positions under synthetic traffic, by cuscus-air.
+int air_command(const AirArguments& arguments);
 int schema_command();
 int ps_command(bool json);
 /// `run_id` may be empty when one run is alive.

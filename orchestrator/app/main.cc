@@ -22,11 +22,9 @@ constexpr auto kFooter =
     "Exit codes: 0 done, 1 failed, 2 wrong usage or scenario, 3 the run is INVALID, or not\n"
     "VALID with --on-late fail or stop, 128+n ended by signal n.";
 
-void add_scenario_options(CLI::App& command, orchestrator::ScenarioArguments& arguments) {
+void add_scenario(CLI::App& command, orchestrator::ScenarioArguments& arguments) {
   command.add_option("SCENARIO", arguments.file, "scenario file (JSON)")->required();
-  command.add_option("--duration", arguments.duration, "such as 60s");
   command.add_option("--seed", arguments.seed, "of all random numbers");
-  command.add_option("--clock", arguments.clock, "real");
   command
       .add_option("--set", arguments.set,
                   "PATH=VALUE changes one key, such as radio.data_rate=\"12 Mb/s\"")
@@ -35,12 +33,44 @@ void add_scenario_options(CLI::App& command, orchestrator::ScenarioArguments& ar
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void add_scenario_options(CLI::App& command, orchestrator::ScenarioArguments& arguments) {
+  add_scenario(command, arguments);
+  command.add_option("--duration", arguments.duration, "such as 60s");
+  command.add_option("--clock", arguments.clock, "real");
+}
+
+void add_air_options(CLI::App& command, orchestrator::AirArguments& air) {
+  add_scenario(command, air.scenario);
+  command.add_option("--traffic", air.request.traffic, "beacons, saturated, flow or ping")
+      ->capture_default_str();
+  command.add_flag("--unicast", air.request.unicast,
+                   "beacons and saturated: to the next node each, not to all");
+  command.add_option("--from", air.request.from, "flow and ping: such as uav0 (the first node)");
+  command.add_option("--to", air.request.to, "flow and ping: such as uav3 (the second node)");
+  command.add_option("--payload", air.request.payload_bytes, "UDP payload in bytes")
+      ->capture_default_str();
+  command.add_option("--period", air.period,
+                     "of beacons and pings (50ms); of a flow: as fast as it can, if not given");
+  command.add_option("--jitter", air.jitter, "of every beacon, such as 1ms (0ms)");
+  command.add_option("--duration", air.duration, "simulated time that is measured (10s)");
+  command
+      .add_option("--nodes", air.nodes,
+                  "numbers of radio nodes to simulate, such as 2,5,10: the first group of the "
+                  "fleet grows or shrinks")
+      ->delimiter(',');
+  command.add_option("--seeds", air.request.seeds, "runs with as many seeds in a row")
+      ->capture_default_str();
+  command.add_option("--out", air.out, "file for the CSV table (standard output)");
+  command.add_flag("--plot", air.plot, "draw --out FILE: .gp, .svg and .png beside it; by gnuplot");
+}
+
 /// Options and what to do with them; declared together so that they live as long as the parser.
 struct CommandLine {
   CLI::App app{"Flies a fleet of UAVs and their radio network together on one machine.", "cuscus"};
   orchestrator::RunArguments run;
   orchestrator::ScenarioArguments check;
   orchestrator::WhyArguments why;
+  orchestrator::AirArguments air;
   bool check_json{false};
   bool schema{false};
   bool ps_json{false};
@@ -63,6 +93,10 @@ struct CommandLine {
         app.add_subcommand("check", "check a scenario and print the plan; creates nothing");
     add_scenario_options(*check_command, check);
     check_command->add_flag("--json", check_json, "print the plan as JSON");
+    add_air_options(
+        *app.add_subcommand(
+            "air", "simulate the scenario's radio under synthetic traffic; needs no privileges"),
+        air);
     app.add_subcommand("schema", "print the JSON schema of scenarios");
     auto* const ps_command = app.add_subcommand("ps", "list the runs of this machine");
     ps_command->add_flag("--json", ps_json, "as JSON, with every node");
@@ -114,6 +148,9 @@ struct CommandLine {
     }
     if (app.got_subcommand("check")) {
       return orchestrator::check_command(check, check_json);
+    }
+    if (app.got_subcommand("air")) {
+      return orchestrator::air_command(air);
     }
     if (app.got_subcommand("schema")) {
       return orchestrator::schema_command();

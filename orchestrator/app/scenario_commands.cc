@@ -9,7 +9,7 @@
 
 namespace cuscus::orchestrator {
 
-scenario::Scenario load(const ScenarioArguments& arguments) {
+std::vector<scenario::Override> overrides_of(const ScenarioArguments& arguments) {
   std::vector<scenario::Override> overrides;
   const auto add = [&](const char* key, const std::optional<std::string>& value) {
     if (value) {
@@ -31,7 +31,11 @@ scenario::Scenario load(const ScenarioArguments& arguments) {
   for (const auto& text : arguments.set) {
     overrides.push_back(scenario::parse_override(text));
   }
-  auto scenario = scenario::load_scenario(arguments.file, overrides);
+  return overrides;
+}
+
+scenario::Scenario load(const ScenarioArguments& arguments) {
+  auto scenario = scenario::load_scenario(arguments.file, overrides_of(arguments));
   scenario::check_programs(scenario, arguments.file.native(), kProgramPath);
   return scenario;
 }
