@@ -159,6 +159,13 @@ struct CommandLine {
       return orchestrator::ps_command(ps_json);
     }
     if (app.got_subcommand("exec")) {
+      // The parser leaves the separator where it is once positionals have begun.
+      if (command.front() == "--") {
+        command.erase(command.begin());
+      }
+      if (command.empty()) {
+        throw orchestrator::UsageError{"exec: there is no command after --"};
+      }
       return orchestrator::exec_command(run_id, node, command);
     }
     if (app.got_subcommand("stop")) {

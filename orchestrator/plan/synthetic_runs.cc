@@ -48,7 +48,7 @@ void check(const SyntheticRequest& request) {
   require(std::find(kTraffic.begin(), kTraffic.end(), request.traffic) != kTraffic.end(),
           fmt::format("--traffic {}: allowed: {}", request.traffic, fmt::join(kTraffic, ", ")));
   require(
-      !request.from && !request.to || between_two(request),
+      (!request.from && !request.to) || between_two(request),
       fmt::format("--from and --to go with --traffic flow or ping, not with {}", request.traffic));
   require(!request.unicast || !between_two(request),
           fmt::format("--unicast goes with --traffic beacons or saturated, not with {}",

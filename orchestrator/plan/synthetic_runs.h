@@ -17,10 +17,10 @@ struct SyntheticRequest {
   bool unicast{false};             ///< beacons, saturated: to the next node each.
   std::uint32_t payload_bytes{64};
   /// Of beacons and pings 50 ms; of a flow as fast as its MAC takes them.
-  std::optional<scenario::Duration> period;
-  scenario::Duration jitter{0};     ///< Of every beacon, uniform.
-  std::optional<std::string> from;  ///< Flow and ping; else the first node.
-  std::optional<std::string> to;    ///< Flow and ping; else the second node.
+  std::optional<scenario::Duration> period{};
+  scenario::Duration jitter{0};       ///< Of every beacon, uniform.
+  std::optional<std::string> from{};  ///< Flow and ping; else the first node.
+  std::optional<std::string> to{};    ///< Flow and ping; else the second node.
   scenario::Duration duration{std::chrono::seconds{10}};
   std::uint32_t seeds{1};  ///< The scenario's, and the ones that follow it.
 };
