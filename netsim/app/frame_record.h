@@ -20,7 +20,7 @@ struct FrameRecord {
   SendOutcome outcome;
   std::uint32_t deliveries;
   std::int64_t first_delivery_ns;  ///< SimTime; 0 where there is none.
-  std::uint8_t priority;           ///< Below kPriorities.
+  std::uint8_t priority{};         ///< Below kPriorities.
 };
 
 /// The lines before the first record: what the radio was, and the names of the columns.

@@ -6,6 +6,7 @@
 
 #include "netsim/app/ethernet.h"
 #include "netsim/app/stamp_matcher.h"
+#include "netsim/mac/mac.h"
 #include "netsim/phy/standard.h"
 #include "tests/fuzz/fuzz_target.h"
 
