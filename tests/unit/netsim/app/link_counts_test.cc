@@ -79,6 +79,7 @@ TEST_CASE("sums over links are the tallies of the nodes, cause by cause") {
   parameters.queue_frames = 20;
   parameters.queue_lifetime = std::chrono::milliseconds{15};
   parameters.rts_threshold_bytes = 900;
+  parameters.group_rate_kbps = 24'000;  // detected further than decoded
   parameters.rate_control = "aarf";
   parameters.channel.fading = "rice";
   parameters.disruption.fraction = 0.05;

@@ -34,7 +34,7 @@ struct AskedRadio {
   }
   shm::RadioReadingsReader reader() const { return shm::RadioReadingsReader{memory}; }
 
-  alignas(64) std::array<std::byte, 256> memory_bytes{};
+  alignas(64) std::array<std::byte, 1024> memory_bytes{};
   std::span<std::byte> memory =
       std::span{memory_bytes}.first(shm::RadioReadingsWriter::byte_size(kNodes));
   FixedPositions positions{
