@@ -20,6 +20,7 @@ SENDER = """
 import socket, time
 s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 s.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
+time.sleep(1)  # until the receiver listens, or its kernel answers with ICMP
 for i in range(%d):
     for target, words in (("{ip:right0}", 25), ("{ip:right0}", 300), ("{broadcast}", 20)):
         s.sendto(i.to_bytes(4, "big") * words, (target, %d))

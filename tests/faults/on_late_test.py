@@ -58,7 +58,7 @@ class OnLate(unittest.TestCase):
         self.assertEqual(code, 3, run.stderr)
         self.assertLess(run.summary["simulated_s"], DURATION_S)
         self.assertRegex(run.summary["end_reason"],
-                         "^stopped: cannot become VALID any more: .*late")
+                         "^stopped: cannot become VALID any more: .*world step")
         self.assertEqual(run.stderr.count("the run was stopped after"), 1, run.stderr)
         self.assertGreater(len(run.metrics()), 0)
 
