@@ -29,9 +29,9 @@ void Jamming::follow(Source& source, const Places& places) const {
   source.version = places.version;
   for (std::uint32_t node = 0; node < source.steady_dbm.size(); ++node) {
     const Eigen::Vector3d& p_WN = places.p_WN[node];
-    const Link link = Link::between(node, p_WN, source.number, source.jammer.p_WJ());
+    const Link link = Link::between(node, p_WN, source.number, source.jammer.place());
     DecibelMilliwatt received = source.power + antenna_gains_[node] - channel_->static_loss(link);
-    const Eigen::Vector3d direction_W = source.jammer.p_WJ() - p_WN;
+    const Eigen::Vector3d direction_W = source.jammer.place() - p_WN;
     if (antenna_ != nullptr && !direction_W.isZero(0.0)) {
       received = received + antenna_->gain(places.q_WN.empty()
                                                ? direction_W
@@ -54,7 +54,7 @@ std::span<const double> Jamming::received_mw(SimTime now, const Places& places) 
       DecibelMilliwatt received{source.steady_dbm[node]};
       if (channel_->varies_per_frame()) {
         const Link link =
-            Link::between(node, places.p_WN[node], source.number, source.jammer.p_WJ());
+            Link::between(node, places.p_WN[node], source.number, source.jammer.place());
         received =
             received - channel_->frame_loss(
                            {.link = link, .from_low = false, .transmission = draw, .time = now});

@@ -40,7 +40,8 @@ class Jammer final {
   /// @throws std::invalid_argument naming what is wrong and what is allowed.
   explicit Jammer(const JammerParameters& parameters);
 
-  [[nodiscard]] const Eigen::Vector3d& p_WJ() const { return parameters_.p_WJ; }
+  /// Where it stands, ENU [m].
+  [[nodiscard]] const Eigen::Vector3d& place() const { return parameters_.p_WJ; }
   [[nodiscard]] bool on(SimTime time) const;
   /// The first instant after `time` at which it goes on or off.
   [[nodiscard]] std::optional<SimTime> next_switch(SimTime time) const;

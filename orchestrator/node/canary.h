@@ -42,6 +42,9 @@ class Canary {
          const netlink::SendStampRing* send_stamps);
   Canary(const Canary&) = delete;
   Canary& operator=(const Canary&) = delete;
+  Canary(Canary&&) = delete;
+  Canary& operator=(Canary&&) = delete;
+  ~Canary() = default;
 
   /// Where netsim reads and writes the frames of end 0 or 1.
   [[nodiscard]] int tap_fd(std::size_t end) const { return ends_.at(end).tap.fd(); }
