@@ -86,10 +86,12 @@ std::string destination_of(const ReceptionLogRecord& record, std::span<const std
 }
 
 std::string fate_of(const ReceptionLogRecord& record, std::span<const std::string> names) {
-  const std::string other = interferer_of(record, names);
-  const auto with = fmt::arg("with", other.empty() ? "a frame unknown" : other);
-  const auto to = fmt::arg("to", names[record.receiver]);
-  return fmt::format(fmt::runtime(text_of(record.cause).text), with, to);
+  std::string other = interferer_of(record, names);
+  if (other.empty()) {
+    other = "a frame unknown";
+  }
+  return fmt::format(fmt::runtime(text_of(record.cause).text), fmt::arg("with", other),
+                     fmt::arg("to", names[record.receiver]));
 }
 
 void append_budget(std::string& text, const ReceptionLogRecord& record) {
