@@ -6,6 +6,8 @@ Two fixed nodes at 100 m exchange datagrams over Friis, so every level follows f
 
 import collections
 import math
+import pathlib
+import tempfile
 import unittest
 
 from cuscus_run import Run
@@ -16,24 +18,27 @@ DISTANCE_M = 100.0
 TX_DBM = 16
 SIGNAL_DBM = round(TX_DBM - 40.18 - 20 * math.log10(DISTANCE_M))
 COUNT = 50
+LISTENING = "{scenario_dir}/marks/listening"
 SENDER = """
-import socket, time
+import os, socket, time
 s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 s.setsockopt(socket.SOL_SOCKET, socket.SO_BROADCAST, 1)
-time.sleep(1)  # until the receiver listens, or its kernel answers with ICMP
+while not os.path.exists("%s"):  # or the receiver's kernel answers with ICMP
+    time.sleep(0.01)
 for i in range(%d):
     for target, words in (("{ip:right0}", 25), ("{ip:right0}", 300), ("{broadcast}", 20)):
         s.sendto(i.to_bytes(4, "big") * words, (target, %d))
         time.sleep(0.01)
 time.sleep(1000)
-""" % (COUNT, PORT)
+""" % (LISTENING, COUNT, PORT)
 RECEIVER = """
 import socket
 s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 s.bind(("", %d))
+open("%s", "w").close()
 while True:
     s.recv(4096)
-""" % PORT
+""" % (PORT, LISTENING)
 
 
 def scenario(record, **radio):
@@ -62,7 +67,11 @@ def payloads(found, words):
 
 class Captures(unittest.TestCase):
     def fly(self, record, **radio):
-        run = Run(scenario(record, **radio), "--no-page")
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="cuscus-test-"))
+        marks = folder / "marks"
+        marks.mkdir()
+        marks.chmod(0o777)  # programs have users of their own
+        run = Run(scenario(record, **radio), "--no-page", folder=folder)
         self.addCleanup(run.remove)
         code = run.wait()
         self.assertIn(code, (0, 3), run.stderr)  # a host that was too slow has said so
