@@ -170,22 +170,8 @@ std::uint32_t Air::queue_places() const {
 void Air::offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& frame) {
   assert(node < stations_.size());
   assert(frame.priority < kPriorities);
-  std::uint32_t slot = 0;
-  if (free_pending_.empty()) {
-    slot = static_cast<std::uint32_t>(pending_.size());
-    pending_.emplace_back();
-  } else {
-    slot = free_pending_.back();
-    free_pending_.pop_back();
-  }
-  const bool to_itself = frame.destination == static_cast<std::int32_t>(node);
-  pending_[slot] = {.report = {.id = frame.id,
-                               .sender = node,
-                               .destination = to_itself ? kNobody : frame.destination,
-                               .psdu_bytes = frame.psdu_bytes,
-                               .priority = frame.priority,
-                               .sent_at = sent_at},
-                    .references = 1};
+  const std::uint32_t slot = pending_.take();
+  pending_[slot] = {.report = FrameReport::of(node, sent_at, frame), .references = 1};
   queue_.schedule(std::max(sent_at, now_), event_rank(EventRank::kOffer, node),
                   {.kind = Step::Kind::kOffer, .index = slot});
 }
@@ -315,7 +301,7 @@ void Air::release(std::uint32_t frame) {
   if (report.destination >= 0 && report.deliveries == 0) {
     stations_[static_cast<std::size_t>(report.destination)].tally.count(report.last_loss);
   }
-  free_pending_.push_back(frame);
+  pending_.give_back(frame);
   listener_->finished(report);
 }
 

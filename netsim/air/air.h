@@ -17,6 +17,7 @@
 #include "netsim/channel/channel.h"
 #include "netsim/channel/disruption.h"
 #include "netsim/kernel/event_queue.h"
+#include "netsim/kernel/slot_pool.h"
 #include "netsim/mac/mac.h"
 #include "netsim/phy/receiver.h"
 
@@ -145,6 +146,18 @@ struct FrameReport {
   /// Why its last attempt did not get through, of an individually addressed frame without
   /// deliveries; kNone when no attempt was made or an RTS that arrived was not answered.
   LossCause last_loss{LossCause::kNone};
+
+  /// Of a frame that is just offered. No radio answers one that is addressed to its own sender.
+  [[nodiscard]] static FrameReport of(std::uint32_t node, SimTime sent_at,
+                                      const OfferedFrame& frame) {
+    return {.id = frame.id,
+            .sender = node,
+            .destination =
+                frame.destination == static_cast<std::int32_t>(node) ? kNobody : frame.destination,
+            .psdu_bytes = frame.psdu_bytes,
+            .priority = frame.priority,
+            .sent_at = sent_at};
+  }
 };
 
 /// Whoever is told what becomes of frames. May call Air::offer() from within.
@@ -250,7 +263,6 @@ class Air final : public FrameCarrier, private MacHost {
   void update_medium(std::uint32_t node);
   void release(std::uint32_t frame);
   [[nodiscard]] bool meant_for(const MacFrame& frame, std::uint32_t node) const;
-  [[nodiscard]] std::uint32_t new_transmission();
 
   std::uint64_t seed_;
   const Standard* standard_;
@@ -273,10 +285,8 @@ class Air final : public FrameCarrier, private MacHost {
   SimTime now_{};
   std::uint64_t events_{0};
   std::vector<Station> stations_;
-  std::vector<Transmission> transmissions_;
-  std::vector<std::uint32_t> free_transmissions_;
-  std::vector<Pending> pending_;
-  std::vector<std::uint32_t> free_pending_;
+  SlotPool<Transmission> transmissions_;
+  SlotPool<Pending> pending_;
 };
 
 }  // namespace cuscus::netsim

@@ -29,7 +29,7 @@ struct Reception {
   LossCause cause{LossCause::kNone};
   DecibelMilliwatt power{};
   /// The worst while it was received, or when its preamble was not detected. Meaningless with
-  /// LossCause::kHalfDuplex.
+  /// LossCause::kHalfDuplex; on an ideal air, which has none, not a number.
   Decibel sinr{};
   /// Sender of the strongest other frame heard meanwhile, or of the one that the receiver was with;
   /// kNoSender when there was none.

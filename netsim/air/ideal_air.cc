@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -63,23 +64,10 @@ IdealAir::IdealAir(const AirParameters& parameters, PositionSource& positions,
 
 void IdealAir::offer(std::uint32_t node, SimTime sent_at, const OfferedFrame& offered) {
   assert(node < nodes_.size());
-  std::uint32_t number = 0;
-  if (free_frames_.empty()) {
-    number = static_cast<std::uint32_t>(frames_.size());
-    frames_.emplace_back();
-  } else {
-    number = free_frames_.back();
-    free_frames_.pop_back();
-  }
-  const bool to_itself = offered.destination == static_cast<std::int32_t>(node);
+  const std::uint32_t number = frames_.take();
   Frame& frame = frames_[number];
   frame = {};
-  frame.report = {.id = offered.id,
-                  .sender = node,
-                  .destination = to_itself ? kNobody : offered.destination,
-                  .psdu_bytes = offered.psdu_bytes,
-                  .priority = offered.priority,
-                  .sent_at = sent_at};
+  frame.report = FrameReport::of(node, sent_at, offered);
   frame.queued_at = std::max(sent_at, now_);
   queue_.schedule(frame.queued_at, event_rank(EventRank::kOffer, node),
                   {.kind = Step::Kind::kOffer, .frame = number});
@@ -230,8 +218,11 @@ void IdealAir::arrive(const Step& step) {
   Frame& frame = frames_[step.frame];
   const DecibelMilliwatt power = nodes_[frame.report.sender].tx_power;
   if (monitor_ != nullptr) {
-    monitor_->received(
-        frame.ppdu, {.receiver = step.receiver, .time = now_, .cause = step.cause, .power = power});
+    monitor_->received(frame.ppdu, {.receiver = step.receiver,
+                                    .time = now_,
+                                    .cause = step.cause,
+                                    .power = power,
+                                    .sinr = {std::numeric_limits<double>::quiet_NaN()}});
   }
   if (step.cause != LossCause::kNone) {
     nodes_[step.receiver].tally.count(step.cause);
@@ -262,7 +253,7 @@ void IdealAir::release(std::uint32_t number) {
     return;
   }
   const FrameReport report = frame.report;
-  free_frames_.push_back(number);
+  frames_.give_back(number);
   listener_->finished(report);
 }
 

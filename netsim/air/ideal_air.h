@@ -9,6 +9,7 @@
 #include "netsim/air/air.h"
 #include "netsim/air/frame_carrier.h"
 #include "netsim/kernel/event_queue.h"
+#include "netsim/kernel/slot_pool.h"
 
 namespace cuscus::netsim {
 
@@ -93,8 +94,7 @@ class IdealAir final : public FrameCarrier {
   SimTime now_{};
   std::uint64_t events_{0};
   std::vector<Node> nodes_;
-  std::vector<Frame> frames_;
-  std::vector<std::uint32_t> free_frames_;
+  SlotPool<Frame> frames_;
 };
 
 /// The air that the parameters ask for: an IdealAir where the MAC is "ideal", else an Air.

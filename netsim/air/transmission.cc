@@ -22,16 +22,6 @@ constexpr std::uint64_t rank_of_finish(std::uint32_t transmission) {
 
 }  // namespace
 
-std::uint32_t Air::new_transmission() {
-  if (!free_transmissions_.empty()) {
-    const std::uint32_t index = free_transmissions_.back();
-    free_transmissions_.pop_back();
-    return index;
-  }
-  transmissions_.emplace_back();
-  return static_cast<std::uint32_t>(transmissions_.size() - 1);
-}
-
 void Air::update_reach(std::uint32_t sender) {
   const auto& positions = positions_->positions(now_);
   Station& station = stations_[sender];
@@ -121,7 +111,7 @@ void Air::leave_out(const Ppdu& ppdu, std::uint32_t receiver) {
 
 void Air::transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
                    std::uint32_t psdu_bytes) {
-  const std::uint32_t index = new_transmission();
+  const std::uint32_t index = transmissions_.take();
   Transmission& transmission = transmissions_[index];
   const PpduFormat& format = *mode.format;
   const Duration duration = airtime(mode, psdu_bytes);
@@ -170,7 +160,7 @@ void Air::transmit(std::uint32_t node, const MacFrame& frame, const Mode& mode,
   if (transmission.arrivals.empty()) {
     // Nobody hears it; the frame is over when the sender says so.
     transmission.active = false;
-    free_transmissions_.push_back(index);
+    transmissions_.give_back(index);
     if (belongs_to_pending(frame)) {
       --pending_[frame.frame].references;
     }
@@ -326,7 +316,7 @@ void Air::finish_arrival(Transmission& transmission, Arrival& arrival) {
 void Air::end_of_sweeps(std::uint32_t index) {
   Transmission& transmission = transmissions_[index];
   transmission.active = false;
-  free_transmissions_.push_back(index);
+  transmissions_.give_back(index);
   if (belongs_to_pending(transmission.ppdu.frame)) {
     release(transmission.ppdu.frame.frame);
   }

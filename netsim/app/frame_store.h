@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "netsim/app/due_copies.h"
+#include "netsim/kernel/slot_pool.h"
 
 namespace cuscus::netsim {
 
@@ -33,14 +34,7 @@ class FrameStore {
  public:
   [[nodiscard]] std::uint32_t add(std::uint32_t node, std::uint32_t frame_bytes,
                                   std::int64_t sent_ns) {
-    std::uint32_t number = 0;
-    if (free_.empty()) {
-      number = static_cast<std::uint32_t>(frames_.size());
-      frames_.emplace_back();
-    } else {
-      number = free_.back();
-      free_.pop_back();
-    }
+    const std::uint32_t number = frames_.take();
     LiveFrame& frame = frames_[number];
     frame.node = node;
     frame.serial = ++serial_;
@@ -65,15 +59,14 @@ class FrameStore {
   /// Gives the number back if its frame is over.
   void drop_if_over(std::uint32_t number) {
     if (frames_[number].over()) {
-      free_.push_back(number);
+      frames_.give_back(number);
     }
   }
 
-  [[nodiscard]] std::size_t in_use() const { return frames_.size() - free_.size(); }
+  [[nodiscard]] std::size_t in_use() const { return frames_.in_use(); }
 
  private:
-  std::vector<LiveFrame> frames_;
-  std::vector<std::uint32_t> free_;
+  SlotPool<LiveFrame> frames_;
   std::uint32_t serial_{0};
 };
 

@@ -66,30 +66,23 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
     frames_.drop_if_over(frame);
     return;
   }
-  // To itself: no radio answers.
-  const std::int32_t addressed = addresses_.destination(*parsed);
-  const std::int32_t to = addressed == static_cast<std::int32_t>(live.node) ? kNobody : addressed;
+  const OfferedFrame offered{.id = frames_.id_of(frame),
+                             .destination = addresses_.destination(*parsed),
+                             .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
+                             .priority = parsed->priority};
   ingress_delay_.add(entered_ns - live.sent_ns);
   Port& port = ports_[live.node];
   if (++port.outstanding > air_->queue_places() + kBeyondQueue) {
     ++port.refused;
-    finished({.id = frames_.id_of(frame),
-              .sender = live.node,
-              .destination = to,
-              .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
-              .priority = parsed->priority,
-              .sent_at = sim_time(live.sent_ns),
-              .outcome = SendOutcome::kQueueFull});
+    FrameReport refused = FrameReport::of(live.node, sim_time(live.sent_ns), offered);
+    refused.outcome = SendOutcome::kQueueFull;
+    finished(refused);
     return;
   }
   if (live.sent_ns < to_ns(air_->now())) {
     clamp_.add(to_ns(air_->now()) - live.sent_ns);
   }
-  air_->offer(live.node, sim_time(live.sent_ns),
-              {.id = frames_.id_of(frame),
-               .destination = to,
-               .psdu_bytes = psdu_bytes_of_ethernet(live.frame_bytes),
-               .priority = parsed->priority});
+  air_->offer(live.node, sim_time(live.sent_ns), offered);
 }
 
 /// Reads every TAP that has something, a bounded number of frames each; false when none had.

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include "netsim/capture/mac_frame.h"
@@ -122,9 +123,12 @@ std::string comment_of(const PpduRecord& record, std::span<const std::string> na
     return {};
   }
   const Reception& reception = record.reception;
-  std::array<char, 32> sinr{};
-  std::snprintf(sinr.data(), sinr.size(), ", SINR %.1f dB", reception.sinr.value);
-  std::string text = "lost: " + std::string{text_of(reception.cause)} + sinr.data();
+  std::string text = "lost: " + std::string{text_of(reception.cause)};
+  if (std::isfinite(reception.sinr.value)) {
+    std::array<char, 32> sinr{};
+    std::snprintf(sinr.data(), sinr.size(), ", SINR %.1f dB", reception.sinr.value);
+    text += sinr.data();
+  }
   if (reception.interferer < names.size()) {
     text += ", " + names[reception.interferer] + " was on the air";
   }
