@@ -14,11 +14,17 @@ ALLOWED = {
     "common/statistics": set(),
     "common/geometry": {"common/units"},
     "common/scenario": {"common/units", "common/geometry"},
+    "common/city": {"common/units"},
+    "common/city/import": {"common/units", "common/random", "common/city"},
+    "common/city/geometry": {"common/units", "common/city"},
+    "common/city/generate": {"common/units", "common/random", "common/city"},
+    "common/city/export": {"common/units", "common/city"},
     "proto": set(),
     "common/ipc": {"common/posix", "common/statistics", "proto"},
 }
 SHARED = set(ALLOWED)
-PURE = {"common/units", "common/random", "common/statistics", "common/geometry", "common/scenario"}
+PURE = {"common/units", "common/random", "common/statistics", "common/geometry", "common/scenario",
+        "common/city", "common/city/geometry"}
 ALLOWED |= {
     "world/dynamics": PURE,
     "world/sensors": PURE | {"world/dynamics"},
