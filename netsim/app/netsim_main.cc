@@ -8,6 +8,7 @@
 
 #include "common/ipc/child_session.h"
 #include "common/log/log.h"
+#include "common/posix/processors.h"
 #include "common/posix/scheduling.h"
 #include "common/posix/shared_memory.h"
 #include "netsim/app/fleet_positions.h"
@@ -181,12 +182,15 @@ void serve(ChildSession& session) {
   netsim::LiveAir air{std::move(setup), positions};
   session.ready();
 
+  bool pinned = false;
   if (const auto start_ns = session.await_start()) {
     if (configuration.realtime_priority() > 0 &&
         !posix::try_realtime_scheduling(configuration.realtime_priority())) {
       spdlog::warn("SCHED_FIFO {} was refused: releases may be late",
                    configuration.realtime_priority());
     }
+    // This thread alone: those that write files may go wherever there is room.
+    pinned = configuration.has_processor() && posix::try_pin(configuration.processor());
     if (!posix::try_lock_memory()) {
       spdlog::warn("memory could not be locked: page faults may delay releases");
     }
@@ -195,6 +199,9 @@ void serve(ChildSession& session) {
   }
   proto::Report report;
   *report.mutable_radio() = air.report();
+  if (pinned) {
+    report.mutable_radio()->set_processor(configuration.processor());
+  }
   session.report(report);
 }
 

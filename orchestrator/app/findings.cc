@@ -104,6 +104,7 @@ FidelityInputs fidelity_inputs(const Plan& plan, const LiveRun& run, const RunFa
   add_failures(run, inputs.failures);
   const auto drops = run.tap_drops();
   inputs.tap_drops = std::accumulate(drops.begin(), drops.end(), std::uint64_t{0});
+  inputs.backlog_drops = run.backlog_drops();
   if (run.crew() != nullptr) {
     for (const auto& program : run.crew()->programs()) {
       if (const auto* const report = report_of(program); report && report->has_agent()) {

@@ -124,6 +124,7 @@ bool LiveRun::guarded(const Body& body) {
 bool LiveRun::set_up() {
   return guarded([&] {
     start_world();
+    reserve_processor();
     build_nodes();
     start_netsim();
     start_programs();
@@ -184,6 +185,19 @@ void LiveRun::start_world() {
   memories_.world_has_mapped();
 }
 
+void LiveRun::reserve_processor() {
+  if (!plan_.realtime) {
+    return;
+  }
+  auto reserved = EmulatorProcessor::reserve();
+  if (auto* const processor = std::get_if<EmulatorProcessor>(&reserved)) {
+    processor_.emplace(std::move(*processor));
+  } else {
+    spdlog::warn("netsim gets no processor for itself ({}): large fleets may be late",
+                 std::get<netlink::NotAvailable>(reserved).reason);
+  }
+}
+
 void LiveRun::build_nodes() {
   auto ring = netlink::SendStampRing::create();
   if (auto* const made = std::get_if<netlink::SendStampRing>(&ring)) {
@@ -198,16 +212,19 @@ void LiveRun::build_nodes() {
     serve();
     check_trouble();
   };
+  const auto receive_processors = processor_ ? processor_->others() : std::span<const int>{};
   fleet_ = std::make_unique<node::Fleet>(
       networks_of(plan_), node::FleetOptions{.init_path = settings_.programs / "cuscus-init",
                                              .static_neighbours = plan_.static_neighbours,
                                              .hosts = !plan_.hosts.empty(),
                                              .send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
+                                             .receive_processors = receive_processors,
                                              .on_step = [look](std::string_view) { look(); },
                                              .on_wait = look});
   canary_ = std::make_unique<node::Canary>(
       fleet_->fabric(), static_cast<std::uint32_t>(plan_.nodes.size()), attachment_of(plan_),
-      send_stamps_ ? &*send_stamps_ : nullptr);
+      node::Surroundings{.send_stamps = send_stamps_ ? &*send_stamps_ : nullptr,
+                         .receive_processors = receive_processors});
   links_ = std::make_unique<LinkFollower>(loop_, fleet_->fabric().network_namespace(), plan_);
   if (on_nodes_built_) {
     on_nodes_built_();
@@ -248,6 +265,9 @@ void LiveRun::start_netsim() {
   proto::Configure configure;
   *configure.mutable_radio() = plan_.radio;
   configure.mutable_radio()->set_canary_delay_ns(node::Canary::kDelay.count());
+  if (processor_) {
+    configure.mutable_radio()->set_processor(processor_->number());
+  }
   netsim_->component().configure(given, configure);
   await([] { return "netsim to be ready"; }, kReadyLimit,
         [&] { return netsim_->component().is_ready(); });

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "common/posix/unique_fd.h"
+#include "orchestrator/app/emulator_processor.h"
 #include "orchestrator/app/link_follower.h"
 #include "orchestrator/app/node_crew.h"
 #include "orchestrator/app/progress.h"
@@ -72,6 +73,10 @@ class LiveRun {
   [[nodiscard]] const Service* netsim() const noexcept { return netsim_.get(); }
   /// Frames that the kernel dropped on the way to netsim, per node.
   [[nodiscard]] std::vector<std::uint64_t> tap_drops() const;
+  /// Frames that the kernel dropped on their way from netsim to the nodes.
+  [[nodiscard]] std::uint64_t backlog_drops() const {
+    return processor_ ? processor_->backlog_drops() : 0;
+  }
   /// What the world took from a node's program while it flew: motors that stop later were told to.
   [[nodiscard]] std::optional<shm::CommandTally> commands(std::uint32_t node) const;
   /// The longest time in flight for which nobody looked after the run.
@@ -89,6 +94,7 @@ class LiveRun {
 
  private:
   void start_world();
+  void reserve_processor();
   void build_nodes();
   void start_netsim();
   void start_programs();
@@ -131,6 +137,7 @@ class LiveRun {
   std::int64_t start_monotonic_ns_{0};
   RunMemories memories_;
   std::unique_ptr<Service> world_;
+  std::optional<EmulatorProcessor> processor_;
   std::optional<netlink::SendStampRing> send_stamps_;
   std::unique_ptr<node::Fleet> fleet_;
   std::unique_ptr<LinkFollower> links_;

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "common/posix/check.h"
-#include "common/posix/sysctl.h"
+#include "common/posix/kernel_settings.h"
 #include "common/posix/unique_fd.h"
 
 namespace cuscus::init {

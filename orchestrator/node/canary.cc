@@ -12,8 +12,8 @@
 #include <string>
 
 #include "common/posix/check.h"
+#include "common/posix/kernel_settings.h"
 #include "common/posix/monotonic_clock.h"
-#include "common/posix/sysctl.h"
 
 namespace cuscus::node {
 namespace {
@@ -65,10 +65,11 @@ bool wait_readable(int fd, std::int64_t deadline_ns) {
 }  // namespace
 
 Canary::Canary(const Fabric& fabric, std::uint32_t first_index, Attachment attachment,
-               const netlink::SendStampRing* send_stamps) {
+               Surroundings surroundings) {
   const std::array<netlink::Neighbour, 2> neighbours{
       {{.address = address_of_end(0), .mac = mac_of_end(0)},
        {.address = address_of_end(1), .mac = mac_of_end(1)}}};
+  surroundings.neighbours = neighbours;
   auto fabric_routes = netlink::RouteSocket::in(fabric.network_namespace());
   for (std::uint8_t end = 0; end < 2; ++end) {
     const NodeNetwork network{.index = first_index + end,
@@ -76,8 +77,7 @@ Canary::Canary(const Fabric& fabric, std::uint32_t first_index, Attachment attac
                               .mac = mac_of_end(end),
                               .address = {.address = address_of_end(end), .length = 30},
                               .attachment = attachment};
-    ends_.push_back(make_end(fabric, fabric_routes, network,
-                             {.neighbours = neighbours, .send_stamps = send_stamps}));
+    ends_.push_back(make_end(fabric, fabric_routes, network, surroundings));
     ends_.back().socket = ends_.back().space.run([end] { return open_socket(end); });
   }
 }

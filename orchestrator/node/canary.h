@@ -38,8 +38,9 @@ class Canary {
   static constexpr std::chrono::milliseconds kPatience{500};
 
   /// Its ends are `first_index` and the next, behind all nodes.
+  /// Of `surroundings` its neighbours are its own.
   Canary(const Fabric& fabric, std::uint32_t first_index, Attachment attachment,
-         const netlink::SendStampRing* send_stamps);
+         Surroundings surroundings);
   Canary(const Canary&) = delete;
   Canary& operator=(const Canary&) = delete;
   Canary(Canary&&) = delete;

@@ -1,6 +1,6 @@
 #include "orchestrator/node/fabric.h"
 
-#include "common/posix/sysctl.h"
+#include "common/posix/kernel_settings.h"
 
 namespace cuscus::node {
 

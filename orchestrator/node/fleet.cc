@@ -73,7 +73,9 @@ Fleet::Fleet(std::span<const NodeNetwork> networks, const FleetOptions& options)
   for (Node& node : nodes_) {
     await_ready(node, options);
     node.build_links(fabric_, fabric_routes,
-                     {.neighbours = neighbours, .send_stamps = options.send_stamps});
+                     {.neighbours = neighbours,
+                      .send_stamps = options.send_stamps,
+                      .receive_processors = options.receive_processors});
     tell(options, node.network().name + " links");
   }
 }

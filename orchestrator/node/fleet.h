@@ -25,6 +25,7 @@ struct FleetOptions {
   /// Every node's /etc/hosts has all nodes' names; off: it is the host's.
   bool hosts{true};
   const netlink::SendStampRing* send_stamps{};    ///< Null: no stamps. Outlives the building.
+  std::span<const int> receive_processors{};      ///< See Surroundings.
   std::chrono::milliseconds ready_limit{10'000};  ///< For each node's init.
   /// Told after each step what has been done; may throw to end the building there.
   std::function<void(std::string_view step)> on_step{};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "orchestrator/netlink/offloads.h"
+#include "orchestrator/netlink/receive_steering.h"
 
 namespace cuscus::node {
 namespace {
@@ -36,6 +37,15 @@ netlink::TapDevice build_bridged(const NodeNetwork& network, const posix::Networ
                              .master_index = bridge_index},
                             where);
   return device;
+}
+
+/// In the calling thread's namespace.
+void steer(const std::string& tap, const NodeNetwork& network, const Surroundings& surroundings) {
+  const auto processors = surroundings.receive_processors;
+  if (!processors.empty()) {
+    // One per node, so that its frames keep their order.
+    netlink::steer_receiving(tap, processors.subspan(network.index % processors.size(), 1));
+  }
 }
 
 /// In the calling thread's namespace.
@@ -77,11 +87,14 @@ netlink::TapDevice build_links(const NodeNetwork& network, const posix::NetworkN
     std::optional<netlink::TapDevice> tap;
     if (network.attachment == Attachment::kBridge) {
       tap = build_bridged(network, where, fabric, fabric_routes);
+      fabric.network_namespace().run(
+          [&] { steer(link_name("tap", network), network, surroundings); });
     }
     where.run([&] {
       netlink::RouteSocket routes;
       if (network.attachment == Attachment::kDirect) {
         tap = build_direct(network, routes);
+        steer(kInterface, network, surroundings);
       }
       configure_interface(network, routes, surroundings);
     });

@@ -44,6 +44,8 @@ struct NodeNetwork {
 struct Surroundings {
   std::span<const netlink::Neighbour> neighbours{};  ///< Permanent ones; empty: nodes use ARP.
   const netlink::SendStampRing* send_stamps{};       ///< Null: no stamps.
+  /// Where the kernel works on what netsim has written; empty: where netsim writes.
+  std::span<const int> receive_processors{};
 };
 
 /// Builds wlan0 in the node's namespace `where` and what connects it to netsim; its TAP.

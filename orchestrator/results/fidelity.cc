@@ -109,6 +109,8 @@ class Judge {
     // A stamped frame that a TAP dropped is in both counts; `frames` has it already.
     share("lost_outside_the_air", "frames lost between the programs and the emulator",
           std::max(report.lost_before_air(), inputs_.tap_drops), frames, kLost);
+    share("lost_in_backlogs", "frames lost in the kernel's queues behind the emulator",
+          inputs_.backlog_drops, release.count(), kLost);
     if (report.frames_not_logged() > 0) {
       fidelity_.notes.push_back(
           fmt::format("the frame log lacks {} frames", report.frames_not_logged()));
@@ -122,6 +124,10 @@ class Judge {
           fmt::format("the captures lack {} packets", report.packets_not_captured()));
     }
     scheduler("netsim", report.scheduler());
+    if (inputs_.realtime_wanted && !report.has_processor()) {
+      fidelity_.notes.push_back(
+          "netsim had no processor for itself: it did the kernel's work of receiving as well");
+    }
   }
 
   void world() {
@@ -320,6 +326,7 @@ Json to_json(const Fidelity& fidelity, const FidelityInputs& inputs) {
                                           {"late", json_of(inputs.canary->late)}}
                                    : Json(nullptr)},
           {"tap_drops", inputs.tap_drops},
+          {"backlog_drops", inputs.backlog_drops},
           {"agent_loops", inputs.agent_loops},
           {"agent_overruns", inputs.agent_overruns},
           {"motor_stops", inputs.motor_stops},

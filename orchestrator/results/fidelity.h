@@ -35,6 +35,8 @@ struct FidelityInputs {
   std::vector<std::string> failures;
   /// Frames that the interfaces dropped on their way to or from the emulator.
   std::uint64_t tap_drops{0};
+  /// Frames that the kernel's queues of received frames had no room for.
+  std::uint64_t backlog_drops{0};
   std::uint64_t agent_loops{0};  ///< Of all agents together.
   std::uint64_t agent_overruns{0};
   std::uint64_t motor_stops{0};   ///< For want of a command from one of our agents, in time.

@@ -19,6 +19,7 @@ Json json_of(const proto::DurationSummary& summary) {
 Json json_of(const proto::RadioReport& report) {
   return {{"send_stamps", report.send_stamps()},
           {"scheduler", report.scheduler()},
+          {"processor", report.has_processor() ? Json(report.processor()) : Json()},
           {"ingress_delay", json_of(report.ingress_delay())},
           {"release_lateness", json_of(report.release_lateness())},
           {"clamps", report.clamps()},

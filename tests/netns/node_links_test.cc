@@ -10,8 +10,10 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "common/posix/check.h"
+#include "common/posix/processors.h"
 #include "orchestrator/netlink/link_watch.h"
 #include "orchestrator/netlink/offloads.h"
 #include "orchestrator/node/fleet.h"
@@ -113,6 +115,29 @@ bool hears(netlink::LinkWatch& watch, const std::string& link, bool wanted) {
     }
   }
   return false;
+}
+
+TEST_CASE("the kernel delivers to each node on one of the processors that were asked for") {
+  CUSCUS_ROOT_ONLY();
+  const auto attachment = any_attachment();
+  const std::vector<int> processors = posix::allowed_processors();
+  Fleet fleet{test_fleet(3, attachment), {.receive_processors = processors}};
+  const TapForwarder air{fleet.nodes()};
+
+  const auto ping = run_in(fleet.nodes()[0], {"ping", "-c", "2", "-i", "0.05", "-W", "5", "uav2"});
+
+  CHECK(ping.exited.exit_code() == 0);
+  if (attachment == Attachment::kDirect) {
+    for (std::size_t node = 0; node < fleet.nodes().size(); ++node) {
+      const std::vector expected{processors[node % processors.size()]};
+      const auto mask =
+          run_in(fleet.nodes()[node], {"cat", "/sys/class/net/wlan0/queues/rx-0/rps_cpus"});
+      CHECK(mask.output == posix::processor_mask(expected) + "\n");
+    }
+  }
+  // Nodes still cannot change it.
+  CHECK(run_in(fleet.nodes()[0], {"sh", "-c", "echo 0 > /sys/class/net/wlan0/queues/rx-0/rps_cpus"})
+            .exited.exit_code() != 0);
 }
 
 TEST_CASE("the fabric hears of a bridged node's interface that goes down, up, and away") {

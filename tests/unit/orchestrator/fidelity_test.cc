@@ -32,6 +32,7 @@ FidelityInputs good_run() {
   inputs.radio.emplace();
   inputs.radio->set_send_stamps("tc-bpf");
   inputs.radio->set_scheduler("SCHED_FIFO 60");
+  inputs.radio->set_processor(0);
   *inputs.radio->mutable_ingress_delay() = durations({{17, 12'000}}, 200'000);
   *inputs.radio->mutable_release_lateness() = durations({{14, 120'000}}, 30'000);
   inputs.world.emplace();
@@ -145,6 +146,8 @@ const std::vector<Case> kCases{
      Verdict::kInvalid, "240 of 12000, 2 %"},
     {"one frame lost on a TAP", [](auto& in) { in.tap_drops = 1; }, Verdict::kDegraded,
      "frames lost between the programs and the emulator: 1 of 12000"},
+    {"one frame lost in a backlog", [](auto& in) { in.backlog_drops = 1; }, Verdict::kDegraded,
+     "frames lost in the kernel's queues behind the emulator: 1 of "},
     {"one frame in a hundred lost on a TAP", [](auto& in) { in.tap_drops = 120; },
      Verdict::kInvalid, "120 of 12000, 1 %"},
     {"frames stamped that never came", [](auto& in) { in.radio->set_lost_before_air(5); },
@@ -251,13 +254,15 @@ TEST_CASE("What a host did not grant is noted, and only the figures count") {
   FidelityInputs inputs = good_run();
   inputs.radio->set_scheduler("SCHED_OTHER");
   inputs.radio->set_send_stamps("read");
+  inputs.radio->clear_processor();
 
   const Fidelity fidelity = judge(inputs);
 
   CHECK(fidelity.verdict == Verdict::kValid);
-  REQUIRE(fidelity.notes.size() == 2);
+  REQUIRE(fidelity.notes.size() == 3);
   CHECK_THAT(fidelity.notes[0], Catch::Contains("no BPF"));
   CHECK(fidelity.notes[1] == "netsim ran under SCHED_OTHER instead of SCHED_FIFO");
+  CHECK_THAT(fidelity.notes[2], Catch::Contains("no processor for itself"));
 
   inputs.realtime_wanted = false;
   CHECK(judge(inputs).notes.size() == 1);

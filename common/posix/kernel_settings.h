@@ -11,4 +11,9 @@ namespace cuscus::posix {
 /// @throws std::system_error naming the key and the value when it may not be written.
 bool write_sysctl(const std::string& path, std::string_view value);
 
+/// Writes `value` to `path` of a sysfs that shows the calling thread's network namespace, such as
+/// "class/net/eth0/queues/rx-0/rps_cpus". Needs CAP_SYS_ADMIN.
+/// @throws std::system_error naming the file and the value.
+void write_sysfs(const std::string& path, std::string_view value);
+
 }  // namespace cuscus::posix
