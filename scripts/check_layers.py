@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that #include lines follow the dependency picture in docs/architecture.md."""
+"""Checks that #include lines follow the dependency picture in docs/architecture.md, and that each
+source includes the header of its name first, which shows that the header stands alone."""
 
 import pathlib
 import re
@@ -75,7 +76,11 @@ def violations(root: pathlib.Path):
             if owner is None:
                 yield f"{path}: belongs to no folder that scripts/check_layers.py knows"
                 continue
-            for included in INCLUDE.findall(file.read_text(encoding="utf-8")):
+            includes = INCLUDE.findall(file.read_text(encoding="utf-8"))
+            header = file.with_suffix(".h").relative_to(root).as_posix()
+            if file.suffix == ".cc" and (root / header).exists() and includes[:1] != [header]:
+                yield f'{path}: does not include "{header}" before all others'
+            for included in includes:
                 if owner_of(included) not in ALLOWED[owner] | {owner}:
                     yield f'{path}: {owner} may not include "{included}"'
 
