@@ -21,6 +21,7 @@ ALLOWED = {
     "common/city/generate": {"common/units", "common/random", "common/city"},
     "common/city/export": {"common/units", "common/city"},
     "proto": set(),
+    "common/city/transfer": {"common/city", "proto"},
     "common/ipc": {"common/posix", "common/statistics", "proto"},
 }
 SHARED = set(ALLOWED)

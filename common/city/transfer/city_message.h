@@ -1,0 +1,16 @@
+#pragma once
+
+#include "common/city/city.h"
+#include "proto/city.pb.h"
+
+namespace cuscus::city {
+
+/// The same city as a message.
+[[nodiscard]] proto::CityModel to_message(const City& city);
+
+/// The city in a message.
+/// @throws std::invalid_argument naming what is wrong in a message that to_message() cannot have
+/// made.
+[[nodiscard]] City from_message(const proto::CityModel& message);
+
+}  // namespace cuscus::city
