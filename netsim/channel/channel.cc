@@ -10,7 +10,9 @@
 #include "common/random/counter_stream.h"
 #include "common/units/constants.h"
 #include "netsim/channel/aerial_loss.h"
+#include "netsim/channel/all_obstacles.h"
 #include "netsim/channel/street_canyon.h"
+#include "netsim/channel/wall_loss.h"
 
 namespace cuscus::netsim {
 namespace {
@@ -103,8 +105,16 @@ void require_term(bool holds, const std::string& rule) {
   }
 }
 
-std::unique_ptr<const Obstacles> make_obstacles(const ChannelParameters& p) {
-  return p.obstacles.empty() ? nullptr : std::make_unique<BoxObstacles>(p.obstacles);
+std::shared_ptr<const Obstacles> make_obstacles(const ChannelParameters& p) {
+  if (p.obstacles.empty()) {
+    return p.city;
+  }
+  auto boxes = std::make_shared<BoxObstacles>(p.obstacles);
+  if (!p.city) {
+    return boxes;
+  }
+  return std::make_shared<AllObstacles>(
+      std::vector<std::shared_ptr<const Obstacles>>{std::move(boxes), p.city});
 }
 
 std::unique_ptr<const Shadowing> make_shadowing(const ChannelParameters& p) {
@@ -160,7 +170,7 @@ Decibel FrameVariation::loss(const FrameOnLink& frame) const {
 Channel::Channel(const ChannelParameters& parameters)
     : Channel{parameters, make_obstacles(parameters)} {}
 
-Channel::Channel(const ChannelParameters& parameters, std::unique_ptr<const Obstacles> obstacles)
+Channel::Channel(const ChannelParameters& parameters, std::shared_ptr<const Obstacles> obstacles)
     : carrier_hz_{parameters.carrier_hz},
       counts_walls_{parameters.model == "paper-eq1"},
       outer_wall_{parameters.outer_wall},
@@ -213,10 +223,14 @@ ObstacleTerms Channel::obstacle_terms_of(const Link& link) const {
   const double wavelength_m = kSpeedOfLight_mps / carrier_hz_;
   std::vector<Obstruction> found;
   obstacles_->find(*a, *b, clear_zone_m(wavelength_m), found);
-  if (!counts_walls_) {
-    return obstacle_terms(found, *a, *b, wavelength_m);
-  }
   ObstacleTerms terms;
+  if (!counts_walls_) {
+    terms = obstacle_terms(found, *a, *b, wavelength_m);
+    if (const double foliage_m = obstacles_->foliage_m(*a, *b); foliage_m > 0.0) {
+      terms.foliage = foliage_loss(foliage_m, carrier_hz_);
+    }
+    return terms;
+  }
   for (const Obstruction& body : found) {
     terms.walls.outer += body.walls.outer;
     terms.walls.inner += body.walls.inner;

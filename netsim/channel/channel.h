@@ -63,6 +63,7 @@ struct ChannelParameters {
   double residual_doppler_hz{1.0};                                      ///< rice.
   double nakagami_m{1.0};
   std::vector<BoxObstacle> obstacles{};
+  std::shared_ptr<const Obstacles> city{};  ///< Further obstacles; may be none.
   std::uint64_t seed{1};
   std::vector<PathLossMaker> more_models{};  ///< That `model` may name besides ours.
 };
@@ -76,7 +77,7 @@ struct StaticTerms {
   /// In this order, so that equation 1 of the paper is exact.
   [[nodiscard]] Decibel sum() const {
     return basic + obstacles.outer_walls + obstacles.inner_walls + obstacles.diffraction +
-           shadowing;
+           obstacles.foliage + shadowing;
   }
 };
 
@@ -103,7 +104,7 @@ class Channel {
   /// @throws std::invalid_argument naming what is wrong and what is allowed.
   explicit Channel(const ChannelParameters& parameters);
   /// With these obstacles, which may be none, instead.
-  Channel(const ChannelParameters& parameters, std::unique_ptr<const Obstacles> obstacles);
+  Channel(const ChannelParameters& parameters, std::shared_ptr<const Obstacles> obstacles);
 
   /// Names that ChannelParameters::model may hold.
   [[nodiscard]] static std::vector<std::string> model_names();
@@ -131,7 +132,7 @@ class Channel {
   Decibel outer_wall_;
   Decibel inner_wall_;
   std::unique_ptr<const PathLossModel> path_loss_;
-  std::unique_ptr<const Obstacles> obstacles_;
+  std::shared_ptr<const Obstacles> obstacles_;
   std::unique_ptr<const Shadowing> shadowing_;
   std::unique_ptr<const FrameVariation> variation_;
   std::unique_ptr<const FadingModel> fading_;

@@ -26,8 +26,11 @@ struct ObstacleTerms {
   /// What goes around the bodies: negative where that is more than what comes through, positive
   /// where bodies that the ray only grazes take some of it.
   Decibel diffraction{};
+  Decibel foliage{};
 
-  [[nodiscard]] Decibel sum() const { return outer_walls + inner_walls + diffraction; }
+  [[nodiscard]] Decibel sum() const {
+    return outer_walls + inner_walls + diffraction + foliage;
+  }
 };
 
 /// What comes through the bodies and what goes around them, added as powers. One body that the ray

@@ -52,6 +52,11 @@ class Obstacles {
   /// not depend on the ray. A body that is cleared by `zone_m` or more may be left out.
   virtual void find(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
                     std::vector<Obstruction>& found) const = 0;
+  /// How far the direct ray goes through leaves.
+  [[nodiscard]] virtual double foliage_m(const Eigen::Vector3d& /*p_WA*/,
+                                         const Eigen::Vector3d& /*p_WB*/) const {
+    return 0.0;
+  }
 };
 
 }  // namespace cuscus::netsim

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/city/city.h"
+#include "common/city/geometry/city_geometry.h"
+#include "netsim/channel/obstacles.h"
+#include "netsim/channel/wall_loss.h"
+
+namespace cuscus::netsim {
+
+/// The buildings, trees and woods of a city.
+class CityObstacles final : public Obstacles {
+ public:
+  /// `geometry` is of `city`, of which walls' materials are taken.
+  CityObstacles(const city::City& city, std::shared_ptr<const city::CityGeometry> geometry,
+                const WallLosses& walls);
+
+  void find(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
+            std::vector<Obstruction>& found) const override;
+  [[nodiscard]] double foliage_m(const Eigen::Vector3d& p_WA,
+                                 const Eigen::Vector3d& p_WB) const override;
+
+ private:
+  [[nodiscard]] Obstruction crossed(const city::Crossing& crossing, const Eigen::Vector3d& p_WA,
+                                    const Eigen::Vector3d& p_WB) const;
+
+  std::shared_ptr<const city::CityGeometry> geometry_;
+  std::vector<Decibel> outer_wall_;  ///< By building.
+  Decibel inner_wall_;
+  bool has_foliage_;
+};
+
+}  // namespace cuscus::netsim
