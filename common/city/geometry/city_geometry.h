@@ -17,7 +17,7 @@ enum class Body : std::uint8_t { kBuilding, kGround, kTree, kWood };
 
 struct Hit {
   double distance_m{0.0};  ///< From the origin. 0: the origin is in a solid, or below the ground.
-  /// Of length 1, out of the body. Where distance_m is 0: against the direction.
+  /// Of length 1, out of the body. Of an origin inside: against the direction.
   Eigen::Vector3d normal{Eigen::Vector3d::UnitZ()};
   Body body{Body::kGround};
   std::uint32_t index{0};  ///< In City::buildings, trees or woods; of the ground 0.
@@ -98,12 +98,15 @@ struct Turns {
 /// throw std::invalid_argument.
 ///
 /// A building is the union of its prisms: where two of them touch is no wall, gaps narrower than
-/// 1 mm along a ray neither. A prism whose bottom is on the ground or below it goes on downwards
-/// without end. Surfaces are decided in exact arithmetic as though a segment lay an infinitesimal
-/// to the left of where it lies, seen from that end which is further west (then south), and above
-/// it: so a ray along a wall that two buildings share is in exactly one of them, one on a roof is
-/// in none, and both directions of a segment find the same. A segment that ends on a surface has
-/// not gone through it from outside, and has from inside it.
+/// 1 mm along a ray neither. A prism whose bottom is on the ground or below it (at any corner) goes
+/// on downwards for 1 km.
+///
+/// Touching: walls are decided in exact arithmetic, as though a segment lay an infinitesimal to the
+/// left of where it lies, seen from that end which is further west (then south), and level ones an
+/// infinitesimal above it. So a ray along a wall that two buildings share is in exactly one of
+/// them, one along a roof in none, and both directions of a segment find the same. What only
+/// touches a corner or an edge goes through nothing. A segment that ends on a surface has not gone
+/// through it from outside, and has from inside.
 ///
 /// Trees are upright capsules, a crown over the upper two thirds of the height (a ball, where that
 /// is less than its diameter) on a trunk of a tenth of its radius; woods are prisms. Both are solid

@@ -1,0 +1,140 @@
+// What radio asks of a CityGeometry: what is on a segment, or near it.
+#include <algorithm>
+#include <numeric>
+
+#include "common/city/geometry/parts.h"
+#include "common/city/geometry/refuse.h"
+
+namespace cuscus::city {
+namespace {
+
+using Indices = boost::container::small_vector<std::uint32_t, 64>;
+
+/// Whether p(t) = start + t way, 0 <= t <= 1, comes as near to a box on every axis.
+bool passes_by(const Box& box, const Eigen::Vector3d& start, const Eigen::Vector3d& way,
+               double margin_m) {
+  double begin = 0.0;
+  double end = 1.0;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const double low = box.low_m[axis] - margin_m - start[axis];
+    const double high = box.high_m[axis] + margin_m - start[axis];
+    if (way[axis] == 0.0) {
+      if (low > 0.0 || high < 0.0) {
+        return false;
+      }
+      continue;
+    }
+    const double at_low = low / way[axis];
+    const double at_high = high / way[axis];
+    begin = std::max(begin, std::min(at_low, at_high));
+    end = std::min(end, std::max(at_low, at_high));
+  }
+  // A hair more, for rounding.
+  return begin <= end + 1e-9;
+}
+
+}  // namespace
+
+void CityGeometry::crossings(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                             Crossings& found) const {
+  require_finite(p_WA, p_WB);
+  found.buildings.clear();
+  found.inside.clear();
+  const Segment segment{p_WA, p_WB};
+  Indices places;
+  parts_->prisms.any_along(segment.a, segment.b - segment.a, [&](std::uint32_t place) {
+    places.push_back(place);
+    return false;
+  });
+  std::sort(places.begin(), places.end());
+  Indices prisms;
+  for (std::size_t i = 0; i < places.size();) {
+    const std::uint32_t building = parts_->places[places[i]].building;
+    prisms.clear();
+    for (; i < places.size() && parts_->places[places[i]].building == building; ++i) {
+      prisms.push_back(parts_->places[places[i]].prism);
+    }
+    parts_->buildings[building].append_crossing(segment, {prisms.data(), prisms.size()}, building,
+                                                found);
+  }
+}
+
+bool CityGeometry::append_crossing(std::uint32_t building, const Eigen::Vector3d& p_WA,
+                                   const Eigen::Vector3d& p_WB, Crossings& found) const {
+  require_finite(p_WA, p_WB);
+  const SolidShape& shape = parts_->buildings.at(building);
+  Indices prisms(shape.prisms().size());
+  std::iota(prisms.begin(), prisms.end(), 0U);
+  return shape.append_crossing(Segment{p_WA, p_WB}, {prisms.data(), prisms.size()}, building,
+                               found);
+}
+
+bool CityGeometry::blocked(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB) const {
+  require_finite(p_WA, p_WB);
+  const Segment segment{p_WA, p_WB};
+  Intervals inside;
+  return parts_->prisms.any_along(segment.a, segment.b - segment.a, [&](std::uint32_t place) {
+    inside.clear();
+    parts_->prism(place).append_inside(segment, inside);
+    cut_to_segment(inside);
+    return !inside.empty();
+  });
+}
+
+void CityGeometry::near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double margin_m,
+                        std::vector<std::uint32_t>& buildings) const {
+  require_finite(p_WA, p_WB);
+  require_reach(margin_m);
+  buildings.clear();
+  const Eigen::Vector3d way = p_WB - p_WA;
+  const auto consider = [&](std::uint32_t place) {
+    if (passes_by(parts_->boxes[place], p_WA, way, margin_m)) {
+      buildings.push_back(parts_->places[place].building);
+    }
+    return false;
+  };
+  if (margin_m <= kWide_m) {
+    parts_->wide_prisms.any_along(p_WA, way, consider);
+  } else {
+    parts_->prisms.around(p_WA + 0.5 * way, 0.5 * way.norm() + margin_m, consider);
+  }
+  std::sort(buildings.begin(), buildings.end());
+  buildings.erase(std::unique(buildings.begin(), buildings.end()), buildings.end());
+}
+
+Turns CityGeometry::turns(std::uint32_t building, const Eigen::Vector3d& p_WA,
+                          const Eigen::Vector3d& p_WB) const {
+  require_finite(p_WA, p_WB);
+  return parts_->buildings.at(building).turns(p_WA, p_WB);
+}
+
+double CityGeometry::clearance_m(std::uint32_t building, const Eigen::Vector3d& p_WA,
+                                 const Eigen::Vector3d& p_WB) const {
+  require_finite(p_WA, p_WB);
+  return parts_->buildings.at(building).clearance_m(p_WA, p_WB);
+}
+
+double CityGeometry::foliage_m(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB) const {
+  require_finite(p_WA, p_WB);
+  const Segment segment{p_WA, p_WB};
+  const Eigen::Vector3d way = segment.b - segment.a;
+  Intervals leaves;
+  parts_->plants.any_along(segment.a, way, [&](std::uint32_t plant) {
+    if (plant >= parts_->trees.size()) {
+      const SolidShape& wood = parts_->woods[plant - parts_->trees.size()];
+      wood.prisms().front().append_inside(segment, leaves);
+    } else if (const auto inside = parts_->trees[plant].crown.inside(segment.a, way)) {
+      leaves.push_back(*inside);
+    }
+    return false;
+  });
+  unite(leaves, 0.0);
+  cut_to_segment(leaves);
+  double share = 0.0;
+  for (const Interval& part : leaves) {
+    share += part.end - part.begin;
+  }
+  return share * way.norm();
+}
+
+}  // namespace cuscus::city

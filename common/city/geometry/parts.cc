@@ -1,0 +1,65 @@
+#include "common/city/geometry/parts.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/city/geometry/check_city.h"
+
+namespace cuscus::city {
+namespace {
+
+/// How far what stands on the ground goes on below it.
+constexpr double kDepth_m = 1000.0;
+
+const City& checked(const City& city) {
+  check_city(city);
+  return city;
+}
+
+PrismShape standing(const Footprint& footprint, double bottom_m, double top_m,
+                    const Ground& ground) {
+  const bool stands = std::any_of(
+      footprint.outer.begin(), footprint.outer.end(),
+      [&](const Eigen::Vector2d& corner) { return bottom_m <= ground.height_m(corner); });
+  return {footprint, stands ? std::min(bottom_m, ground.lowest_m()) - kDepth_m : bottom_m, top_m};
+}
+
+Box around_both(const Box& a, const Box& b) {
+  return {.low_m = a.low_m.cwiseMin(b.low_m), .high_m = a.high_m.cwiseMax(b.high_m)};
+}
+
+}  // namespace
+
+CityGeometry::Parts::Parts(const City& city)
+    : ground{checked(city).terrain}, prisms{{}}, wide_prisms{{}}, plants{{}} {
+  for (const Building& building : city.buildings) {
+    std::vector<PrismShape> shapes;
+    for (const Prism& prism : building.prisms) {
+      places.push_back({.building = static_cast<std::uint32_t>(buildings.size()),
+                        .prism = static_cast<std::uint32_t>(shapes.size())});
+      shapes.push_back(standing(prism.footprint, prism.bottom_m, prism.top_m, ground));
+      boxes.push_back(shapes.back().box());
+    }
+    buildings.emplace_back(std::move(shapes), building.room_m);
+  }
+  std::vector<Box> plant_boxes;
+  for (const Tree& tree : city.trees) {
+    trees.emplace_back(tree);
+    plant_boxes.push_back(around_both(trees.back().crown.box(), trees.back().trunk.box()));
+  }
+  for (const Wood& wood : city.woods) {
+    std::vector<PrismShape> shapes{standing(wood.footprint, wood.bottom_m, wood.top_m, ground)};
+    plant_boxes.push_back(shapes.front().box());
+    woods.emplace_back(std::move(shapes), 0.0);
+  }
+  prisms = BoxTree{boxes};
+  plants = BoxTree{plant_boxes};
+  std::vector<Box> wide = boxes;
+  for (Box& box : wide) {
+    box.low_m.array() -= kWide_m;
+    box.high_m.array() += kWide_m;
+  }
+  wide_prisms = BoxTree{wide};
+}
+
+}  // namespace cuscus::city

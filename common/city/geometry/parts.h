@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/city/geometry/box_tree.h"
+#include "common/city/geometry/capsule.h"
+#include "common/city/geometry/city_geometry.h"
+#include "common/city/geometry/ground.h"
+#include "common/city/geometry/solid_shape.h"
+
+namespace cuscus::city {
+
+/// Up to here the tree of widened boxes knows what is near a segment.
+inline constexpr double kWide_m = 8.0;
+
+/// What a CityGeometry is made of.
+struct CityGeometry::Parts {
+  explicit Parts(const City& city);
+
+  /// A prism of a building.
+  struct Place {
+    std::uint32_t building;
+    std::uint32_t prism;
+  };
+
+  [[nodiscard]] const PrismShape& prism(std::uint32_t place) const {
+    return buildings[places[place].building].prisms()[places[place].prism];
+  }
+
+  Ground ground;
+  std::vector<SolidShape> buildings;
+  std::vector<SolidShape> woods;
+  std::vector<TreeShape> trees;
+  std::vector<Place> places;  ///< By building, then prism.
+  std::vector<Box> boxes;     ///< By place.
+  BoxTree prisms;             ///< By place.
+  BoxTree wide_prisms;        ///< The same, with kWide_m around each.
+  BoxTree plants;             ///< All trees, then all woods.
+};
+
+}  // namespace cuscus::city
