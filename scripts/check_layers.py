@@ -14,7 +14,7 @@ ALLOWED = {
     "common/random": set(),
     "common/statistics": set(),
     "common/geometry": {"common/units"},
-    "common/scenario": {"common/units", "common/geometry"},
+    "common/scenario": {"common/units", "common/geometry", "common/city"},
     "common/city": {"common/units"},
     "common/city/import": {"common/units", "common/random", "common/city"},
     "common/city/geometry": {"common/units", "common/city"},

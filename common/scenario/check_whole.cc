@@ -277,6 +277,11 @@ void check_obstacles(const Scenario& scenario, Problems& problems) {
                  "line of sight; allowed: friis, log-distance, paper-eq1, two-ray, p1411, or no "
                  "obstacles");
   }
+  if (scenario.city && draws_line_of_sight(radio.propagation)) {
+    problems.add("/city",
+                 "is a map, and the model of radio/propagation stands in for one by chance of line "
+                 "of sight; allowed: friis, log-distance, paper-eq1, two-ray, p1411, or no city");
+  }
 }
 
 /// Fills the placeholders in as the plan will, with addresses that only need to exist.

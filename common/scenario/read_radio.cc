@@ -221,6 +221,7 @@ Radio read_radio(const json* value, const std::filesystem::path& folder, Problem
   radio.fading = read_fading(reader.child("fading"), reader.path_of("fading"), problems);
   radio.disruption =
       read_disruption(reader.child("disruption"), reader.path_of("disruption"), problems);
+  radio.walls = reader.choice("walls", radio.walls, kWallModelNames);
   radio.obstacles =
       read_obstacles(reader.child("obstacles"), reader.path_of("obstacles"), problems);
   radio.jammers = read_jammers(reader.child("jammers"), reader.path_of("jammers"), problems);

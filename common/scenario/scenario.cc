@@ -64,6 +64,7 @@ Scenario read_document(const json& document, const std::filesystem::path& folder
   scenario.clock = read_clock(reader);
   scenario.realtime = reader.boolean("realtime", scenario.realtime);
   scenario.on_late = reader.choice("on_late", scenario.on_late, kOnLateNames);
+  scenario.city = read_city(reader.child("city"), folder, problems);
   scenario.radio = read_radio(reader.child("radio"), folder, problems);
   scenario.network = read_network(reader.child("network"), problems);
   scenario.world = read_world(reader.child("world"), problems);

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/scenario/city_section.h"
 #include "common/scenario/ipv4.h"
 #include "common/scenario/override.h"
 #include "common/units/decibel.h"
@@ -218,6 +219,9 @@ struct Jammer {
   std::optional<Duration> stop;  ///< Nothing: never.
 };
 
+/// What walls of a city's buildings lose.
+enum class WallModel { kPaper, kP2040 };
+
 struct Radio {
   RadioStandard standard{RadioStandard::k80211g};
   std::uint32_t data_rate_kbps{6000};   ///< Individually addressed frames.
@@ -250,6 +254,7 @@ struct Radio {
   Fading fading{NoFading{}};
   std::optional<Disruption> disruption;
   std::vector<BoxObstacle> obstacles;
+  WallModel walls{WallModel::kPaper};  ///< Of the city.
   std::vector<Jammer> jammers;
 };
 
@@ -418,6 +423,7 @@ struct Scenario {
   ClockSource clock{ClockSource::kReal};
   bool realtime{true};  ///< Ask for SCHED_FIFO.
   OnLate on_late{OnLate::kWarn};
+  std::optional<CitySection> city;
   Radio radio;
   Network network;
   World world;

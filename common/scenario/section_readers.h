@@ -32,6 +32,10 @@ namespace cuscus::scenario {
                                                       const std::string& path, Problems& problems);
 [[nodiscard]] std::vector<Jammer> read_jammers(const nlohmann::json* value, const std::string& path,
                                                Problems& problems);
+/// Nothing: there is none.
+[[nodiscard]] std::optional<CitySection> read_city(const nlohmann::json* value,
+                                                   const std::filesystem::path& folder,
+                                                   Problems& problems);
 [[nodiscard]] Network read_network(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] World read_world(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] GroundStation read_ground_station(const nlohmann::json* value, Problems& problems);

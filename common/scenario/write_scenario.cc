@@ -226,7 +226,38 @@ Json json_of(const Radio& radio) {
       {"fading", std::visit([](const auto& model) { return json_of(model); }, radio.fading)},
       {"disruption", json_of(radio.disruption)},
       {"obstacles", array_of(radio.obstacles)},
+      {"walls", name_of(kWallModelNames, radio.walls)},
       {"jammers", array_of(radio.jammers)}};
+}
+
+Json json_of(const std::optional<CitySection>& city) {
+  if (!city) {
+    return "none";
+  }
+  Json json;
+  if (city->file) {
+    json["file"] = city->file->file.string();
+    if (const auto& bounds = city->file->bounds_deg) {
+      json["bounds"] = {{"west", (*bounds)[0]},
+                        {"south", (*bounds)[1]},
+                        {"east", (*bounds)[2]},
+                        {"north", (*bounds)[3]}};
+    }
+  } else {
+    json["generate"] = name_of(kCityStyleNames, city->generated->style);
+    if (city->generated->seed) {
+      json["seed"] = *city->generated->seed;
+    }
+    json["size"] = format_quantity(city->generated->size_m, kLength);
+  }
+  json["heights"] = lengths(city->heights_m);
+  json["level"] = format_quantity(city->level_m, kLength);
+  json["walls"] = name_of(kMaterialNames, city->walls);
+  json["room"] = format_quantity(city->room_m, kLength);
+  if (!city->terrain.empty()) {
+    json["terrain"] = city->terrain.string();
+  }
+  return json;
 }
 
 Json json_of(const World& world) {
@@ -340,6 +371,7 @@ Json to_json(const Scenario& scenario) {
           {"clock", name_of(kClockNames, scenario.clock)},
           {"realtime", scenario.realtime},
           {"on_late", name_of(kOnLateNames, scenario.on_late)},
+          {"city", json_of(scenario.city)},
           {"radio", json_of(scenario.radio)},
           {"network",
            {{"subnet", subnet_text(network.subnet)},

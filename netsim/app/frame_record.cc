@@ -249,6 +249,8 @@ void for_each_common(Parameters& p, const Field& field) {
   field("residual_doppler_hz", p.channel.residual_doppler_hz);
   field("nakagami_m", p.channel.nakagami_m);
   field("obstacles", p.channel.obstacles);
+  field("walls", p.channel.walls);
+  field("city_file", p.channel.city_file);
   field("jammers", p.jammers);
   field("antenna", p.antenna.model);
   field("antenna_pattern_dbi", p.antenna.pattern_dbi);

@@ -6,11 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "common/city/transfer/city_message.h"
 #include "common/ipc/child_session.h"
 #include "common/log/log.h"
 #include "common/posix/processors.h"
 #include "common/posix/scheduling.h"
 #include "common/posix/shared_memory.h"
+#include "netsim/app/city_of_message.h"
 #include "netsim/app/fleet_positions.h"
 #include "netsim/app/live_air.h"
 #include "netsim/app/radio_configuration.h"
@@ -125,6 +127,10 @@ netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfigurat
   using Kind = proto::Descriptors;
   netsim::LiveSetup setup;
   setup.air = netsim::air_parameters(configuration);
+  if (const auto city = session.take_if_given(Kind::KIND_CITY)) {
+    setup.air.channel.city_file = city::kCityFile;
+    netsim::put_city(MemoryMapping::read_only(*city).bytes(), setup.air.channel);
+  }
   memories.clock = MemoryMapping::read_only(session.take(Kind::KIND_CLOCK_PAGE));
   memories.fleet = MemoryMapping::read_only(session.take(Kind::KIND_FLEET_MEMORY));
   memories.radio = MemoryMapping::read_write(session.take(Kind::KIND_RADIO_MEMORY));

@@ -103,6 +103,7 @@ AirParameters air_parameters(const proto::RadioConfiguration& c) {
                  .residual_doppler_hz = p.residual_doppler_hz(),
                  .nakagami_m = p.nakagami_m(),
                  .obstacles = obstacles_of(c),
+                 .walls = c.walls().empty() ? "paper" : c.walls(),
                  .seed = c.seed()};
   air.jammers = jammers_of(c);
   if (!c.antenna().empty()) {

@@ -1,12 +1,16 @@
 #include "netsim/app/replay.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <ostream>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 
 #include "netsim/air/ideal_air.h"
+#include "netsim/app/city_of_message.h"
 
 namespace cuscus::netsim {
 namespace {
@@ -98,6 +102,20 @@ std::vector<PositionRecord> read_positions(const std::string& path, std::size_t 
   return records;
 }
 
+/// The file is beside the log, whatever the log says.
+void read_city(const std::filesystem::path& file, AirParameters& air) {
+  std::ifstream stream{file, std::ios::binary};
+  const std::string bytes{std::istreambuf_iterator<char>{stream}, {}};
+  if (!stream) {
+    throw std::runtime_error{file.string() + ": the log's city cannot be read"};
+  }
+  try {
+    put_city(std::as_bytes(std::span{bytes}), air.channel);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error{file.string() + ": " + error.what()};
+  }
+}
+
 }  // namespace
 
 ReplayLog read_replay_log(const std::string& path, const std::string& positions_path) {
@@ -133,6 +151,10 @@ ReplayLog read_replay_log(const std::string& path, const std::string& positions_
   }
   std::stable_sort(log.frames.begin(), log.frames.end(),
                    [](const auto& a, const auto& b) { return a.sent_ns < b.sent_ns; });
+  if (!log.air.channel.city_file.empty() && !positions_path.empty()) {
+    const auto name = std::filesystem::path{log.air.channel.city_file}.filename();
+    read_city(std::filesystem::path{path}.replace_filename(name), log.air);
+  }
   if (!positions_path.empty()) {
     log.positions = read_positions(positions_path, log.air.nodes.size());
   }
@@ -145,6 +167,7 @@ ReplayResult replay(const ReplayLog& log, DecibelMilliwatt equal_power, std::ost
   if (log.positions.empty()) {
     // Where walls and jammers are means nothing without where the nodes are.
     parameters.channel.obstacles.clear();
+    parameters.channel.city.reset();
     parameters.jammers.clear();
     parameters.channel.model = "fixed";
     parameters.channel.reference_loss = parameters.nodes.front().tx_power - equal_power;

@@ -64,6 +64,8 @@ struct ChannelParameters {
   double nakagami_m{1.0};
   std::vector<BoxObstacle> obstacles{};
   std::shared_ptr<const Obstacles> city{};  ///< Further obstacles; may be none.
+  std::string walls{"paper"};               ///< Of the city: or "p2040".
+  std::string city_file{};  ///< Where a log's reader finds the city, beside the log; empty: none.
   std::uint64_t seed{1};
   std::vector<PathLossMaker> more_models{};  ///< That `model` may name besides ours.
 };

@@ -196,6 +196,7 @@ proto::RadioConfiguration radio_configuration(const scenario::Radio& from, std::
     radio.set_disruption_offset_ns(disruption->phase.value_or(scenario::Duration{0}).count());
     radio.set_disruption_at_random(!disruption->phase);
   }
+  radio.set_walls(scenario::name_of(scenario::kWallModelNames, from.walls));
   for (const scenario::BoxObstacle& box : from.obstacles) {
     add_obstacle(box, radio);
   }

@@ -5,6 +5,9 @@
 
 namespace cuscus::city {
 
+/// A run's city in its results, as a message.
+inline constexpr const char* kCityFile = "city.pb";
+
 /// The same city as a message.
 [[nodiscard]] proto::CityModel to_message(const City& city);
 

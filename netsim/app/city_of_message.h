@@ -1,0 +1,16 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "netsim/channel/channel.h"
+
+namespace cuscus::netsim {
+
+/// Puts the city of a proto::CityModel's bytes in the way of radio waves, with walls as
+/// `channel.walls` says.
+/// @throws std::invalid_argument naming what is wrong with the message or the name of the walls.
+void put_city(std::span<const std::byte> message, ChannelParameters& channel);
+
+}  // namespace cuscus::netsim
