@@ -234,30 +234,30 @@ Json json_of(const std::optional<CitySection>& city) {
   if (!city) {
     return "none";
   }
-  Json json;
+  Json object;
   if (city->file) {
-    json["file"] = city->file->file.string();
+    object["file"] = city->file->file.string();
     if (const auto& bounds = city->file->bounds_deg) {
-      json["bounds"] = {{"west", (*bounds)[0]},
-                        {"south", (*bounds)[1]},
-                        {"east", (*bounds)[2]},
-                        {"north", (*bounds)[3]}};
+      object["bounds"] = {{"west", (*bounds)[0]},
+                          {"south", (*bounds)[1]},
+                          {"east", (*bounds)[2]},
+                          {"north", (*bounds)[3]}};
     }
   } else {
-    json["generate"] = name_of(kCityStyleNames, city->generated->style);
+    object["generate"] = name_of(kCityStyleNames, city->generated->style);
     if (city->generated->seed) {
-      json["seed"] = *city->generated->seed;
+      object["seed"] = *city->generated->seed;
     }
-    json["size"] = format_quantity(city->generated->size_m, kLength);
+    object["size"] = format_quantity(city->generated->size_m, kLength);
   }
-  json["heights"] = lengths(city->heights_m);
-  json["level"] = format_quantity(city->level_m, kLength);
-  json["walls"] = name_of(kMaterialNames, city->walls);
-  json["room"] = format_quantity(city->room_m, kLength);
+  object["heights"] = lengths(city->heights_m);
+  object["level"] = format_quantity(city->level_m, kLength);
+  object["walls"] = name_of(kMaterialNames, city->walls);
+  object["room"] = format_quantity(city->room_m, kLength);
   if (!city->terrain.empty()) {
-    json["terrain"] = city->terrain.string();
+    object["terrain"] = city->terrain.string();
   }
-  return json;
+  return object;
 }
 
 Json json_of(const World& world) {
