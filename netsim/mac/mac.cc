@@ -42,6 +42,11 @@ constexpr std::array kMacs{
              [](const MacSetting& s) -> std::unique_ptr<Mac> {
                return std::make_unique<Tdma>(s.node, *s.parameters, *s.host);
              }},
+    // Has no stations: make_air() makes another air for it, and asks nobody for a MAC.
+    MacMaker{"ideal",
+             [](const MacSetting& /*s*/) -> std::unique_ptr<Mac> {
+               throw std::invalid_argument{"MAC 'ideal' is an air of its own (IdealAir)"};
+             }},
 };
 
 }  // namespace

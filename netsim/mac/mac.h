@@ -163,7 +163,8 @@ struct MacSetting {
 
 using MacMaker = Maker<Mac, MacSetting>;
 
-/// The MAC of that name: "dcf", "edca", "tdma", or one of `more`.
+/// The MAC of that name: "dcf", "edca", "tdma", or one of `more`. "ideal" is listed and refused: it
+/// is an air of its own (IdealAir).
 /// @throws std::invalid_argument naming those that exist.
 [[nodiscard]] std::unique_ptr<Mac> make_mac(std::string_view name, const MacSetting& setting,
                                             std::span<const MacMaker> more = {});

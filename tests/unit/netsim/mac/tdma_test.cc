@@ -167,7 +167,11 @@ TEST_CASE("a station takes group frames and those addressed to it") {
 
 TEST_CASE("a MAC that does not exist is refused with the names of those that do") {
   CHECK_THROWS_WITH(make_mac("csma", {}),
-                    "MAC 'csma' is not known; allowed are 'dcf', 'edca', 'tdma'");
+                    "MAC 'csma' is not known; allowed are 'dcf', 'edca', 'tdma', 'ideal'");
+}
+
+TEST_CASE("the MAC 'ideal' is no station's, and says where it is to be had") {
+  CHECK_THROWS_WITH(make_mac("ideal", {}), Catch::Contains("IdealAir"));
 }
 
 }  // namespace
