@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/ipc/duration_summary.h"
 #include "common/posix/check.h"
 #include "common/posix/monotonic_clock.h"
 #include "common/posix/resource_usage.h"
@@ -40,14 +39,9 @@ constexpr std::int64_t kHousekeeping_ns = 10 * kMillisecond;
 constexpr std::int64_t kBeat_ns = 500 * kMillisecond;
 constexpr std::uint32_t kTicksPerPublication = 10;
 
-/// Between looks at the TAPs while stamps announce frames.
-constexpr std::int64_t kService_ns = 20 * kMicrosecond;
 constexpr std::int64_t kSlowestService_ns = kMillisecond;
 /// Events run in a row while a copy waits to be written.
 constexpr int kEventBudget = 64;
-/// A copy that is later than this is not written: it would only make the others later still. Such a
-/// run is INVALID in any case (docs/fidelity.md).
-constexpr std::int64_t kLatestRelease_ns = 1'000 * kMillisecond;
 /// Patience with a stamp that is being written: longer, and its writer has lost its core.
 constexpr std::int64_t kStampWrite_ns = 50 * kMicrosecond;
 
@@ -287,97 +281,6 @@ void LiveAir::sleep(LiveOwner& owner, std::int64_t timeout_ns) {
   }
 }
 
-void LiveAir::delivered(const Delivery& delivery) {
-  const auto number = static_cast<std::uint32_t>(delivery.id);
-  LiveFrame& frame = frames_[number];
-  if (radio_memory_) {
-    radio_memory_->publish_link(
-        delivery.receiver, delivery.sender,
-        {.received_dbm = static_cast<float>(delivery.received_power.value),
-         .rate_kbps = delivery.rate_kbps,
-         .sim_time_ms = static_cast<std::uint32_t>(to_ns(delivery.time) / kMillisecond)});
-    link_counts_->delivered(delivery);
-  }
-  if (frame.payload == LiveFrame::Payload::kLost) {
-    lose_copy({.frame = number, .receiver = delivery.receiver, .due = delivery.time},
-              logs::Cause::kNeverCame);
-    return;
-  }
-  ++frame.copies;
-  copies_.add({.frame = number, .receiver = delivery.receiver, .due = delivery.time});
-}
-
-void LiveAir::finished(const FrameReport& report) {
-  const auto number = static_cast<std::uint32_t>(report.id);
-  LiveFrame& frame = frames_[number];
-  --ports_[frame.node].outstanding;
-  if (link_counts_) {
-    link_counts_->finished(report);
-  }
-  if (receptions_) {
-    receptions_->finished(report);
-  }
-  if (log_) {
-    log_->add({.sent_ns = frame.sent_ns,
-               .node = frame.node,
-               .destination = report.destination,
-               .frame_bytes = frame.frame_bytes,
-               .attempts = report.attempts,
-               .outcome = report.outcome,
-               .deliveries = report.deliveries,
-               .first_delivery_ns = report.deliveries > 0 ? to_ns(report.first_delivery) : 0,
-               .priority = report.priority});
-  }
-  frame.air_done = true;
-  frames_.drop_if_over(number);
-}
-
-/// A frame that was received does not get into the receiver's interface.
-void LiveAir::lose_copy(const DueCopy& copy, logs::Cause cause) {
-  const std::uint32_t sender = frames_[copy.frame].node;
-  ++ports_[copy.receiver].lost_interface;
-  if (link_counts_) {
-    link_counts_->lost_at_interface(sender, copy.receiver);
-  }
-  if (receptions_) {
-    receptions_->copy_lost(frames_.id_of(copy.frame), sender, copy.receiver, copy.due, cause);
-  }
-}
-
-void LiveAir::write_one_copy() {
-  const DueCopy copy = copies_.take_first();
-  const bool too_late = now_ns() - to_ns(copy.due) > kLatestRelease_ns;
-  LiveFrame& frame = frames_[copy.frame];
-  if (frame.payload == LiveFrame::Payload::kAwaited && !too_late) {
-    read_tap(frame.node);
-  }
-  LiveFrame& again = frames_[copy.frame];  // reading may have added frames
-  if (again.payload == LiveFrame::Payload::kAwaited && !too_late) {
-    again.late.push_back(copy);
-    // Looked for at once and often to begin with; one that the kernel lost, ever more seldom.
-    service_ns_ = kService_ns;
-    service_at_ = now_ns() + service_ns_;
-    return;
-  }
-  Port& port = ports_[copy.receiver];
-  if (again.payload == LiveFrame::Payload::kLost) {
-    lose_copy(copy, logs::Cause::kNeverCame);
-  } else if (port.tap.fd() < 0) {
-    lose_copy(copy, logs::Cause::kLinkDown);
-  } else {
-    if (!canary_.has(copy.receiver)) {
-      release_lateness_.add(now_ns() - to_ns(copy.due));
-    }
-    if (too_late) {
-      lose_copy(copy, logs::Cause::kLate);
-    } else if (!port.tap.write(again.bytes)) {
-      lose_copy(copy, logs::Cause::kLinkDown);
-    }
-  }
-  --again.copies;
-  frames_.drop_if_over(copy.frame);
-}
-
 void LiveAir::housekeep(LiveOwner& owner, std::int64_t now) {
   housekeep_at_ = now + kHousekeeping_ns;
   if (stamps_) {
@@ -396,81 +299,6 @@ void LiveAir::housekeep(LiveOwner& owner, std::int64_t now) {
     owner.beat(sim_time(now));
   }
   stop_ = stop_ || owner.should_stop();
-}
-
-shm::RadioTally LiveAir::tally(std::uint32_t node) const {
-  const Tally& air = air_->tally(node);
-  const Port& port = ports_[node];
-  return {.offered = air.offered + port.malformed + port.refused,
-          .transmissions = air.transmissions,
-          .retries = air.retries,
-          .acknowledged = air.acknowledged,
-          .received = air.received - port.lost_interface,
-          .dropped_queue_full = air.dropped_queue_full + port.refused,
-          .dropped_lifetime = air.dropped_lifetime,
-          .dropped_retry_limit = air.dropped_retry_limit,
-          .dropped_malformed = port.malformed + air.dropped_too_long,
-          .dropped_before_air = port.before_air,
-          .lost_below_floor = air.lost_below_floor,
-          .lost_below_detection = air.lost_below_detection,
-          .lost_noise = air.lost_noise,
-          .lost_collision = air.lost_collision,
-          .lost_interference = air.lost_interference,
-          .lost_half_duplex = air.lost_half_duplex,
-          .lost_jammed = air.lost_jammed,
-          .lost_interface = port.lost_interface};
-}
-
-void LiveAir::publish(std::uint32_t first, std::uint32_t count) {
-  if (!radio_memory_) {
-    return;
-  }
-  const std::uint32_t end = std::min(first + count, air_->node_count());
-  for (std::uint32_t node = first; node < end; ++node) {
-    radio_memory_->publish(node, tally(node));
-  }
-}
-
-void LiveAir::publish_timing() {
-  if (!radio_memory_) {
-    return;
-  }
-  radio_memory_->publish({.release_lateness_p50_ns = release_lateness_.quantile_ns(0.5),
-                          .release_lateness_p99_ns = release_lateness_.quantile_ns(0.99),
-                          .release_lateness_max_ns = release_lateness_.max_ns(),
-                          .releases = release_lateness_.count(),
-                          .clamps = clamp_.count(),
-                          .events = air_->events()});
-  radio_memory_->beat(to_ns(air_->now()));
-}
-
-proto::RadioReport LiveAir::report() const {
-  proto::RadioReport report;
-  report.set_send_stamps(stamps_ ? "tc-bpf" : "read");
-  report.set_scheduler(scheduler_);
-  *report.mutable_ingress_delay() = ipc::summary_of(ingress_delay_);
-  *report.mutable_release_lateness() = ipc::summary_of(release_lateness_);
-  report.set_clamps(clamp_.count());
-  *report.mutable_clamp() = ipc::summary_of(clamp_);
-  report.set_events(air_->events());
-  report.set_cpu_s(cpu_s_);
-  std::uint64_t before_air = 0;
-  for (std::uint32_t node = 0; node < air_->node_count(); ++node) {
-    before_air += ports_[node].before_air;
-  }
-  report.set_lost_before_air(before_air);
-  report.set_unstamped(unstamped_);
-  report.set_frames_not_logged(not_logged_);
-  report.set_receptions_not_logged(receptions_not_logged_);
-  if (recorder_ && recorder_->captures() != nullptr) {
-    report.set_packets_captured(recorder_->captures()->packets());
-    report.set_packets_not_captured(recorder_->captures()->packets_left_out());
-  }
-  if (recorder_ && recorder_->monitors() != nullptr) {
-    report.set_packets_monitored(recorder_->monitors()->packets());
-    report.set_packets_not_monitored(recorder_->monitors()->packets_left_out());
-  }
-  return report;
 }
 
 }  // namespace cuscus::netsim

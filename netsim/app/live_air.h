@@ -70,11 +70,16 @@ class LiveAir final : private AirListener {
   /// the owner wants to stop.
   void run(std::int64_t start_monotonic_ns, LiveOwner& owner);
 
-  /// Of the run so far in LiveOwner::beat(), whole after run().
+  /// Of the run so far in LiveOwner::beat(), whole after run(); without `nodes`.
   [[nodiscard]] proto::RadioReport report() const;
+  /// Likewise, of one node.
+  [[nodiscard]] proto::NodeServiceReport service_report(std::uint32_t node) const;
   [[nodiscard]] shm::RadioTally tally(std::uint32_t node) const;
 
  private:
+  /// Between looks at the TAPs while stamps announce frames.
+  static constexpr std::int64_t kService_ns = 20'000;
+
   struct Port {
     explicit Port(posix::UniqueFd fd) : tap{std::move(fd)} {}
     TapPort tap;
@@ -82,10 +87,15 @@ class LiveAir final : private AirListener {
     std::vector<std::uint8_t> held;  ///< A frame that waits for its stamp to be written.
     bool emptied{true};              ///< The last read_tap() left nothing behind.
     std::uint64_t outstanding{0};    ///< Frames that the air has and is not done with.
-    std::uint64_t refused{0};        ///< For want of a place in the air.
+    std::uint64_t most_outstanding{0};
+    std::uint64_t refused{0};  ///< For want of a place in the air.
     std::uint64_t malformed{0};
     std::uint64_t before_air{0};
     std::uint64_t lost_interface{0};
+    std::uint64_t clamps{0};
+    std::uint64_t releases{0};
+    std::uint64_t late_releases{0};
+    std::int64_t release_lateness_max_ns{0};
     bool failure_logged{false};
   };
 
@@ -111,6 +121,7 @@ class LiveAir final : private AirListener {
   void lost(std::span<const std::uint32_t> frames);
   void give_up_lost_frames(std::int64_t now);
   void write_one_copy();
+  void note_lateness(Port& port, std::int64_t lateness_ns);
   void lose_copy(const DueCopy& copy, logs::Cause cause);
   void close_logs();
   void tell_programs(const LiveSetup& setup);

@@ -79,8 +79,10 @@ void LiveAir::offer(std::uint32_t frame, std::span<const std::uint8_t> head,
     finished(refused);
     return;
   }
+  port.most_outstanding = std::max(port.most_outstanding, port.outstanding);
   if (live.sent_ns < to_ns(air_->now())) {
     clamp_.add(to_ns(air_->now()) - live.sent_ns);
+    ++port.clamps;
   }
   air_->offer(live.node, sim_time(live.sent_ns), offered);
 }

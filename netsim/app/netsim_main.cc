@@ -127,9 +127,9 @@ netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfigurat
   using Kind = proto::Descriptors;
   netsim::LiveSetup setup;
   setup.air = netsim::air_parameters(configuration);
-  if (const auto city = session.take_if_given(Kind::KIND_CITY)) {
-    setup.air.channel.city_file = city::kCityFile;
-    netsim::put_city(MemoryMapping::read_only(*city).bytes(), setup.air.channel);
+  if (const auto memory = session.take_if_given(Kind::KIND_CITY)) {
+    setup.air.channel.city_file = cuscus::city::kCityFile;
+    netsim::put_city(MemoryMapping::read_only(*memory).bytes(), setup.air.channel);
   }
   memories.clock = MemoryMapping::read_only(session.take(Kind::KIND_CLOCK_PAGE));
   memories.fleet = MemoryMapping::read_only(session.take(Kind::KIND_FLEET_MEMORY));
@@ -207,6 +207,9 @@ void serve(ChildSession& session) {
   *report.mutable_radio() = air.report();
   if (pinned) {
     report.mutable_radio()->set_processor(configuration.processor());
+  }
+  for (int node = 0; node < configuration.nodes_size(); ++node) {
+    *report.mutable_radio()->add_nodes() = air.service_report(static_cast<std::uint32_t>(node));
   }
   session.report(report);
 }

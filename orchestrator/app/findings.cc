@@ -8,6 +8,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 #include "common/ipc/duration_summary.h"
 
@@ -39,6 +40,15 @@ ProgramOutcome outcome_of(const NodeProgram& program) {
     outcome.ended_at = SimClock::duration{static_cast<std::int64_t>(program.ended_at_s * 1e9)};
   }
   return outcome;
+}
+
+/// What netsim has reported of a node, if it came to that.
+std::optional<proto::NodeServiceReport> service_of(std::uint32_t node, const LiveRun& run) {
+  const auto* const report = report_of(run.netsim());
+  if (report == nullptr || std::cmp_greater_equal(node, report->radio().nodes_size())) {
+    return std::nullopt;
+  }
+  return report->radio().nodes(static_cast<int>(node));
 }
 
 std::string end_reason(const FlightEnd& end) {
@@ -144,12 +154,16 @@ RunOutcome run_outcome(const Plan& plan, const LiveRun& run, const Sampler& samp
       .formation_error = sampler.formation_error(),
       .ground_station = {}};
   const auto& radio = run.memories().radio_reader();
+  const auto tap_drops = run.tap_drops();
   for (const auto& node : plan.nodes) {
     outcome.nodes.push_back(
         {.index = node.index,
          .name = node.name,
          .role = node.role,
          .radio = radio ? radio->tally(node.index) : std::nullopt,
+         .emulator = service_of(node.index, run),
+         .tap_dropped =
+             node.index < tap_drops.size() ? std::optional{tap_drops[node.index]} : std::nullopt,
          .commands = node.role == NodeRole::kUav ? run.commands(node.index) : std::nullopt,
          .agent = {},
          .formation_error = sampler.formation_error(node.index),

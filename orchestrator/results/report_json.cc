@@ -36,6 +36,14 @@ Json json_of(const proto::RadioReport& report) {
           {"packets_not_monitored", report.packets_not_monitored()}};
 }
 
+Json json_of(const proto::NodeServiceReport& report) {
+  return {{"queue_high_water", report.queue_high_water()},
+          {"clamps", report.clamps()},
+          {"releases", report.releases()},
+          {"late_releases", report.late_releases()},
+          {"release_lateness_max_ns", report.release_lateness_max_ns()}};
+}
+
 Json json_of(const proto::WorldReport& report) {
   return {{"steps", report.steps()},
           {"overruns", report.overruns()},

@@ -41,6 +41,8 @@ Json node_json(const NodeOutcome& node) {
           {"name", node.name},
           {"role", name_of(node.role)},
           {"radio", node.radio ? json_of(*node.radio) : Json(nullptr)},
+          {"emulator", node.emulator ? json_of(*node.emulator) : Json(nullptr)},
+          {"tap_dropped", node.tap_dropped ? Json(*node.tap_dropped) : Json(nullptr)},
           {"commands", node.commands ? json_of(*node.commands) : Json(nullptr)},
           {"agent", node.agent ? json_of(*node.agent) : Json(nullptr)},
           {"formation_error", error_json(node.formation_error)},

@@ -46,6 +46,8 @@ struct NodeOutcome {
   std::string name;
   NodeRole role{NodeRole::kUav};
   std::optional<shm::RadioTally> radio;
+  std::optional<proto::NodeServiceReport> emulator;
+  std::optional<std::uint64_t> tap_dropped;  ///< Frames that the kernel dropped on its TAP.
   std::optional<shm::CommandTally> commands;
   std::optional<proto::AgentReport> agent;
   std::optional<FormationErrorSummary> formation_error;

@@ -19,6 +19,7 @@ PYTHON = "/usr/bin/python3"
 NODES = ("node0", "node1", "node2")
 VICTIM = "node1"
 FLOOD_BITS_PER_S = 1e9
+QUEUE_FRAMES = 500  # the default of radio.queue.frames
 
 
 def setUpModule():
@@ -130,6 +131,10 @@ class RadioFaults(unittest.TestCase):
         print(f"{attach}: {int(sent)} datagrams at {int(rate) / 1e9:.2f} Gb/s, {flooder}")
         self.assertEqual(flooder["offered"], int(sent), flooder)
         self.assertGreater(flooder["dropped_queue_full"], 1000, flooder)
+        node = run.node(VICTIM)
+        self.assertGreaterEqual(node["emulator"]["queue_high_water"], QUEUE_FRAMES, node)
+        # A TAP holds 1000 frames: what did not fit is among those that never reached the air.
+        self.assertLessEqual(node["tap_dropped"], flooder["dropped_before_air"], node)
         # Many times what the air carries at 6 Mb/s, if not all that was asked of the host.
         self.assertGreater(int(rate), 60e6)
         # The others share the air with it, as with any station that always has something to send:

@@ -201,6 +201,9 @@ TEST_CASE("the emulator's process lives from Configure to Report and logs its fr
   REQUIRE(report.has_report());
   CHECK(report.report().radio().release_lateness().count() == 1);
   CHECK(report.report().radio().send_stamps() == "read");
+  REQUIRE(report.report().radio().nodes_size() == kNodes);
+  CHECK(report.report().radio().nodes(0).queue_high_water() == 1);
+  CHECK(report.report().radio().nodes(1).releases() == 1);
   CHECK(emulator.exit_code() == 0);
   CHECK(emulator.heartbeats >= 1);
   const MemoryMapping radio = MemoryMapping::read_only(world.radio_fd);

@@ -349,6 +349,9 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   first.radio = shm::RadioTally{};
   first.radio->offered = 10;
   first.radio->received = 5;
+  first.emulator.emplace().set_queue_high_water(17);
+  first.emulator->set_release_lateness_max_ns(48'000);
+  first.tap_dropped = 3;
   first.commands = shm::CommandTally{};
   first.commands->rejected_not_finite = 1;
   first.agent.emplace().set_final_state("flying");
@@ -380,6 +383,9 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   CHECK(json.at("radio_total").at("offered") == 11);
   CHECK(json.at("radio_total").at("received") == 5);
   CHECK(json.at("radio_total").at("lost_collision") == 2);
+  CHECK(json.at("nodes").at(0).at("emulator").at("queue_high_water") == 17);
+  CHECK(json.at("nodes").at(0).at("emulator").at("release_lateness_max_ns") == 48'000);
+  CHECK(json.at("nodes").at(0).at("tap_dropped") == 3);
   CHECK(json.at("nodes").at(0).at("commands").at("rejected_not_finite") == 1);
   CHECK(json.at("nodes").at(0).at("agent").at("final_state") == "flying");
   const auto& program = json.at("nodes").at(0).at("programs").at(0);
@@ -388,6 +394,8 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   CHECK(program.at("ended_at_s") == 1.0);
   CHECK(json.at("nodes").at(1).at("role") == "ground-station");
   CHECK(json.at("nodes").at(1).at("agent").is_null());
+  CHECK(json.at("nodes").at(1).at("emulator").is_null());
+  CHECK(json.at("nodes").at(1).at("tap_dropped").is_null());
 }
 
 }  // namespace
