@@ -26,7 +26,7 @@ void AarfRate::report(SimTime /*now*/, std::uint32_t peer_number, const Mode& /*
     ++p.failures;
     if (p.just_raised) {
       p.successes_needed = std::min(2 * p.successes_needed, kMostSuccesses);
-      p.attempts_needed = 2 * p.attempts_needed;
+      p.attempts_needed = std::min(2 * p.attempts_needed, kMostAttempts);
       lower(p);
     } else if (p.failures == 2) {
       p.successes_needed = kLeastSuccesses;

@@ -9,7 +9,7 @@ namespace cuscus::netsim {
 
 /// Adaptive auto rate fallback: a rate up after ten acknowledged frames in a row or fifteen
 /// attempts, a rate down after two failures in a row, or one right after going up; each failed step
-/// up doubles what the next one takes, to at most sixty frames.
+/// up doubles what the next one takes, to at most sixty frames in a row or ninety attempts.
 ///
 /// Source: M. Lacage, M. H. Manshaei, T. Turletti, "IEEE 802.11 rate adaptation: a practical
 /// approach", MSWiM 2004.
@@ -25,6 +25,7 @@ class AarfRate final : public RateControl {
   static constexpr std::uint32_t kLeastSuccesses = 10;
   static constexpr std::uint32_t kMostSuccesses = 60;
   static constexpr std::uint32_t kLeastAttempts = 15;
+  static constexpr std::uint32_t kMostAttempts = 90;
 
   struct Peer {
     std::size_t rate{0};

@@ -77,6 +77,39 @@ TEST_CASE("AARF waits twice as long after each step up that fails, up to sixty s
   }
 }
 
+/// Successes at 6 Mb/s until a step up, which then fails.
+int successes_until_failed_step(AarfRate& rates) {
+  int successes = 0;
+  for (; rate_of(rates) == 6'000; ++successes) {
+    report(rates, true);
+  }
+  report(rates, false);
+  return successes;
+}
+
+TEST_CASE("AARF is still as patient after a hundred steps up that failed") {
+  AarfRate rates{from_rate(6'000)};
+  for (int i = 0; i < 100; ++i) {
+    successes_until_failed_step(rates);
+  }
+
+  CHECK(successes_until_failed_step(rates) == 60);
+}
+
+TEST_CASE("AARF goes up after ninety attempts at most where losses break every run of successes") {
+  AarfRate rates{from_rate(6'000)};
+  for (int i = 0; i < 10; ++i) {  // then its patience is at its greatest
+    successes_until_failed_step(rates);
+  }
+
+  int attempts = 0;
+  for (; rate_of(rates) == 6'000; ++attempts) {
+    report(rates, attempts % 10 != 5);
+  }
+
+  CHECK(attempts == 90);
+}
+
 /// Sends `frames`, 1 ms apart, over a link on which each rate succeeds with its own probability;
 /// how often each rate was tried in the last half.
 std::map<std::uint32_t, int> tried_rates(MinstrelRate& rates,
