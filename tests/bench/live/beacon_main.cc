@@ -1,9 +1,11 @@
 // bench-beacon: an ordinary UDP program that broadcasts every period and counts what it hears. It
 // is the load of scripts/bench-live and knows nothing of the testbed.
 //
-// usage: bench-beacon INDEX COUNT PERIOD_US PAYLOAD_BYTES DURATION_S BROADCAST_ADDRESS [receptions]
+// usage: bench-beacon INDEX COUNT PERIOD_US PAYLOAD_BYTES DURATION_S BROADCAST_ADDRESS
+//        [receptions] [jitter]
 // prints: index sent received own_cpu_s, then the delay quantiles from sendto() to recv() [us];
 // with 'receptions' a line for each as well: sender, its datagram's number, delay [us]
+// 'jitter': anywhere in each period instead of at one phase of it
 
 #include <arpa/inet.h>
 #include <poll.h>
@@ -26,6 +28,7 @@
 #include "common/posix/monotonic_clock.h"
 #include "common/posix/resource_usage.h"
 #include "common/posix/unique_fd.h"
+#include "common/random/counter_stream.h"
 
 namespace {
 
@@ -45,7 +48,8 @@ struct Options {
   std::size_t payload_bytes;
   std::int64_t duration_ns;
   std::string broadcast_address;
-  bool print_receptions;
+  bool print_receptions{false};
+  bool jitter{false};
 };
 
 /// The first bytes of each datagram.
@@ -62,11 +66,15 @@ struct Reception {
 };
 
 Options parse(std::span<char* const> args) {
-  if (args.size() < 7 || args.size() > 8 ||
-      (args.size() == 8 && std::string_view{args[7]} != "receptions")) {
+  const auto words = args.subspan(std::min<std::size_t>(args.size(), 7));
+  const auto has = [&](std::string_view word) {
+    return std::count(words.begin(), words.end(), word) > 0;
+  };
+  if (args.size() < 7 ||
+      words.size() != static_cast<std::size_t>(has("receptions")) + std::size_t{has("jitter")}) {
     std::fputs(
         "usage: bench-beacon INDEX COUNT PERIOD_US PAYLOAD_BYTES DURATION_S BROADCAST "
-        "[receptions]\n",
+        "[receptions] [jitter]\n",
         stderr);
     std::exit(kExitUsage);  // NOLINT(concurrency-mt-unsafe): no other thread
   }
@@ -76,7 +84,8 @@ Options parse(std::span<char* const> args) {
           .payload_bytes = std::max(sizeof(Stamp), static_cast<std::size_t>(std::stoul(args[4]))),
           .duration_ns = std::stoll(args[5]) * 1000 * kNanosecondsPerMillisecond,
           .broadcast_address = args[6],
-          .print_receptions = args.size() == 8};
+          .print_receptions = has("receptions"),
+          .jitter = has("jitter")};
 }
 
 UniqueFd open_socket() {
@@ -113,15 +122,15 @@ class Beacon {
   void run() {
     // By then the others are there to hear it.
     const std::int64_t start = monotonic_now_ns() + kSettle_ns;
-    // Phases spread by the golden ratio: no two senders of a fleet start together.
-    const double turn = static_cast<double>(options_.index) * 0.6180339887498949;
-    const double phase = turn - static_cast<double>(static_cast<std::int64_t>(turn));
-    std::int64_t due =
-        start + static_cast<std::int64_t>(phase * static_cast<double>(options_.period_ns));
-    while (due < start + options_.duration_ns) {
+    for (std::uint64_t period = 0;; ++period) {
+      const double turns = static_cast<double>(period) + phase(period);
+      const auto due =
+          start + static_cast<std::int64_t>(turns * static_cast<double>(options_.period_ns));
+      if (due >= start + options_.duration_ns) {
+        break;
+      }
       receive_until(due);
       send();
-      due += options_.period_ns;
     }
     receive_until(monotonic_now_ns() + 500 * kNanosecondsPerMillisecond);
   }
@@ -147,6 +156,16 @@ class Beacon {
   }
 
  private:
+  /// Where in a period its datagram is sent, 0 ... 1.
+  [[nodiscard]] double phase(std::uint64_t period) const {
+    if (options_.jitter) {
+      return phases_.uniform(period);
+    }
+    // Spread by the golden ratio: no two senders of a fleet start together.
+    const double turn = static_cast<double>(options_.index) * 0.6180339887498949;
+    return turn - static_cast<double>(static_cast<std::int64_t>(turn));
+  }
+
   void send() {
     const Stamp stamp{
         .index = options_.index, .sequence = sequence_, .sent_ns = monotonic_now_ns()};
@@ -190,6 +209,7 @@ class Beacon {
   UniqueFd socket_;
   sockaddr_in to_;
   std::vector<std::byte> datagram_;
+  cuscus::random::CounterStream phases_{1, options_.index};
   std::uint32_t sequence_{0};
   std::vector<Reception> receptions_;
 };
