@@ -36,7 +36,7 @@ enum class PpduKind : std::uint8_t { kData = 0, kAck = 1, kRts = 2, kCts = 3 };
 /// What became of it. Numbers stay what they are.
 enum class Cause : std::uint8_t {
   kReceived = 0,
-  // kReception; docs/models/radio.md
+  // kReception; docs/models/reception.md
   kBelowFloor = 1,
   kBelowDetection = 2,
   kNoise = 3,

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that the code that a page of docs/ shows is the code of the file that it names.
+"""Checks that the pages agree with what is beside them.
 
-A page names a file in a comment on the line before a block: <!-- path/from/the/root -->. With
---write the blocks are replaced instead. Prints each difference; exits 1 if there is any.
+The code that a page of docs/ shows is the code of the file that it names, in a comment on the line
+before a block: <!-- path/from/the/root -->. With --write the blocks are replaced instead. What
+pages link to exists, headings included, and every plot of docs/models is shown by some page.
+Prints each difference; exits 1 if there is any.
 """
 import pathlib
 import re
@@ -10,6 +12,33 @@ import sys
 
 BLOCK = re.compile(r"(?<=<!-- )(?P<path>\S+)(?P<between> -->\n```\w*\n)(?P<code>.*?)(?=```\n)",
                    re.DOTALL)
+
+
+LINK = re.compile(r"\]\((?!https?:)(?P<path>[^)#\s]*)(?:#(?P<heading>[^)\s]*))?\)")
+CODE = re.compile(r"^```.*?^```|`[^`\n]*`", re.DOTALL | re.MULTILINE)
+
+
+def headings_of(page: pathlib.Path) -> set:
+    """As they are linked to: lower case, hyphens for spaces, punctuation left out."""
+    lines = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", line.lower()).replace(" ", "-") for line in lines}
+
+
+def broken_links(root: pathlib.Path) -> list:
+    broken = []
+    linked = set()
+    for page in [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]:
+        for link in LINK.finditer(CODE.sub("", page.read_text(encoding="utf-8"))):
+            target = (page.parent / link["path"]).resolve() if link["path"] else page
+            linked.add(target)
+            if not target.exists():
+                broken.append(f"{page.relative_to(root)}: there is no {link['path']}")
+            elif link["heading"] and link["heading"] not in headings_of(target):
+                broken.append(f"{page.relative_to(root)}: {link['path']} has no heading "
+                              f"#{link['heading']}")
+    return broken + [f"{plot.relative_to(root)}: no page shows it"
+                     for plot in sorted((root / "docs/models/plots").glob("*.svg"))
+                     if plot.resolve() not in linked]
 
 
 def main(root: pathlib.Path, write: bool) -> int:
@@ -34,6 +63,9 @@ def main(root: pathlib.Path, write: bool) -> int:
     if blocks == 0:
         print("no page shows a file: the pattern is wrong, or the pages are elsewhere")
         return 1
+    for problem in broken_links(root.resolve()):
+        print(problem)
+        differences += 1
     return 1 if differences else 0
 
 

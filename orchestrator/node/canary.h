@@ -30,7 +30,7 @@ struct CanaryTally {
 /// measure sees. No node knows of it, and nothing of it is on the air.
 class Canary {
  public:
-  /// That of a beacon of 100 B on an idle air at 6 Mb/s: DIFS 50 us, 250 us (docs/models/radio.md).
+  /// That of a beacon of 100 B on an idle air at 6 Mb/s: DIFS 50 us, 250 us (docs/models/mac.md).
   static constexpr std::chrono::nanoseconds kDelay{300'000};
   /// Not a multiple of any usual period of programs, so that it meets all their phases in turn.
   static constexpr std::chrono::milliseconds kPeriod{97};

@@ -68,7 +68,7 @@ class Programs(unittest.TestCase):
             received = report["end"]["sum"]
             rate = received["bits_per_second"] * (1 - received["lost_percent"] / 100) / 1e6
             # 54 Mb/s with a slot of 20 us carries 24.1 Mb/s of IP packets of 1500 B (formula of
-            # docs/models/radio.md); of 1400 B datagrams with beacons beside them somewhat less.
+            # docs/models/mac.md); of 1400 B datagrams with beacons beside them somewhat less.
             self.assertGreater(rate, 18.0)
             self.assertLess(rate, 24.1)
 

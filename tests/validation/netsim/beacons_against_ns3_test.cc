@@ -46,7 +46,7 @@ TEST_CASE("beacons are delivered as in ns-3") {
       CHECK(agrees(p50_us.mean(), number(row, "delay_p50_us"), p50_us.ci95()));
       CHECK(agrees(p99_us.mean(), number(row, "delay_p99_us"), p99_ci95));
     } else {
-      // Our stations draw a backoff where ns-3's do not (docs/models/radio.md), which shows.
+      // Our stations draw a backoff where ns-3's do not (docs/models/mac.md), which shows.
       CHECK(delay_us.mean() == Approx(number(row, "delay_mean_us")).epsilon(0.15));
       CHECK(p99_us.mean() == Approx(number(row, "delay_p99_us")).epsilon(0.20));
     }

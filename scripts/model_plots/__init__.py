@@ -1,0 +1,1 @@
+"""What scripts/model-plots draws, and how."""
