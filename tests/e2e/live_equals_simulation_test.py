@@ -23,7 +23,7 @@ LATE_US = 300.0
 # Draws that owe nothing to those of the run, whose seed is the scenario's.
 OTHER_SEED = 4711
 # Fewer frames that met a busy medium than this say nothing: see frame_replay.contended_places().
-LEAST_CONTENDED = 25
+LEAST_CONTENDED = 20
 
 
 def position_m(node):
@@ -110,33 +110,34 @@ class LiveEqualsSimulation(unittest.TestCase):
         and delays of one distribution where backoffs make them."""
         log = FrameLog((run.results / "frames.csv").read_text())
         positions_m = [position_m(node) for node in range(count)]
-        places = log.contended_places()
-        live_us = [(log.frames[place]["first_delivery_ns"] - log.frames[place]["sent_ns"]) / 1e3
-                   for place in places if log.frames[place]["delivered_count"] > 0]
         other = simulate(run.folder, log, positions_m, OTHER_SEED)
-        other_us = air_delays_us(log, other, places)
-        clumped_us = air_delays_us(log, simulate(run.folder, log, positions_m, OTHER_SEED,
-                                                 sent_when_read(READ_PERIOD_NS)), places)
+        clumped = simulate(run.folder, log, positions_m, OTHER_SEED,
+                           sent_when_read(READ_PERIOD_NS))
         receptions = len(log.frames) * (count - 1)
         live = sum(frame["delivered_count"] for frame in log.frames)
 
-        def p(first_us, second_us):
-            return probability(distance(first_us, second_us), len(first_us), len(second_us))
+        def p(simulated, places, late_us=0.0):
+            live_us = [late_us + (frame["first_delivery_ns"] - frame["sent_ns"]) / 1e3
+                       for frame in map(log.frames.__getitem__, places)
+                       if frame["delivered_count"] > 0]
+            simulated_us = air_delays_us(log, simulated, places)
+            return probability(distance(live_us, simulated_us), len(live_us), len(simulated_us))
 
-        same = p(live_us, other_us)
-        late = p([delay_us + LATE_US for delay_us in live_us], other_us)
-        clumped = p(live_us, clumped_us)
+        apart, contended = log.places_apart(), log.contended_places()
+        same, same_contended = p(other, apart), p(other, contended)
+        late, entered_clumped = p(other, contended, LATE_US), p(clumped, apart)
         print(f"other backoffs: delivery {live / receptions:.4f} live, "
-              f"{len(other) / receptions:.4f} simulated; {len(places)} frames that met others: "
-              f"p = {same:.3g}; were they {LATE_US:.0f} us late {late:.2g}, clumped {clumped:.2g}",
-              flush=True)
+              f"{len(other) / receptions:.4f} simulated; p = {same:.3g} of {len(apart)} frames, "
+              f"{same_contended:.3g} of {len(contended)} that met others; were they "
+              f"{LATE_US:.0f} us late {late:.2g}, clumped {entered_clumped:.2g}", flush=True)
 
-        self.assertGreaterEqual(len(places), LEAST_CONTENDED)
+        self.assertGreaterEqual(len(contended), LEAST_CONTENDED)
         self.assertAlmostEqual(live / receptions, len(other) / receptions, delta=0.01)
         self.assertGreater(same, 0.01)
+        self.assertGreater(same_contended, 0.01)
         # What the test has to see, it would.
         self.assertLess(late, 0.01)
-        self.assertLess(clumped, 0.01)
+        self.assertLess(entered_clumped, 0.01)
 
     def check(self, count, attach):
         found = []

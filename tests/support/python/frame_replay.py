@@ -33,12 +33,8 @@ class FrameLog:
             writer.writeheader()
             writer.writerows({**frame, "sent_ns": send_time_ns(frame)} for frame in self.frames)
 
-    def contended_places(self):
-        """Places of frames that come to a busy medium, and are sent apart from one another.
-
-        A frame that finds the medium idle takes DIFS and its time on the air, whatever is drawn:
-        only the others tell how backoffs are distributed. Which these are is read from the send
-        times alone, so that every simulation of them picks the same.
+    def places_apart(self):
+        """Places of frames that are sent at least APART_NS after one another.
 
         The frames of one busy period wait for one another, so their delays say nearly the same
         thing several times over, while a test of two samples takes each for a draw of its own.
@@ -46,10 +42,22 @@ class FrameLog:
         what is left of their delays are backoffs. That both samples have the same send times
         makes them more alike than draws from one distribution, never less.
         """
+        return self._apart(lambda before, frame: True)
+
+    def contended_places(self):
+        """The same of frames that come to a busy medium.
+
+        A frame that finds the medium idle takes DIFS and its time on the air, whatever is drawn:
+        only the others tell how backoffs are distributed. Which these are is read from the send
+        times alone, so that every simulation of them picks the same.
+        """
+        return self._apart(lambda before, frame: frame["node"] != before["node"] and
+                           frame["sent_ns"] - before["sent_ns"] < BUSY_NS)
+
+    def _apart(self, wanted):
         places, latest_ns = set(), -APART_NS
         for place, (before, frame) in enumerate(zip(self.frames, self.frames[1:]), start=1):
-            if (frame["sent_ns"] - before["sent_ns"] < BUSY_NS and frame["node"] != before["node"]
-                    and frame["sent_ns"] >= latest_ns + APART_NS):
+            if frame["sent_ns"] >= latest_ns + APART_NS and wanted(before, frame):
                 places.add(place)
                 latest_ns = frame["sent_ns"]
         return places

@@ -32,18 +32,18 @@ class IndependentDraws(unittest.TestCase):
     def check(self, nodes, seconds):
         # A jitter of a whole period: other frames meet in every period.
         log = beacon_log(nodes, seconds, FRAME_B, PERIOD_NS, jitter_ns=PERIOD_NS)
-        places = log.contended_places()
+        contended, apart = log.contended_places(), log.places_apart()
         receptions = len(log.frames) * (nodes - 1)
         runs = [simulate(self.folder, log, seed=seed) for seed in range(1, 2 * PAIRS + 1)]
-        delays_us = [air_delays_us(log, run, places) for run in runs]
-        same = [p_value(delays_us[2 * pair], delays_us[2 * pair + 1]) for pair in range(PAIRS)]
+        delays_us = [air_delays_us(log, run, contended) for run in runs]
+        same = [p_value(first, second) for first, second in zip(delays_us[::2], delays_us[1::2])]
         late = p_value(delays_us[0], [delay_us + LATE_US for delay_us in delays_us[1]])
-        clumped = p_value(delays_us[0], air_delays_us(log, simulate(
-            self.folder, log, seed=2, send_time_ns=sent_when_read(READ_PERIOD_NS)), places))
+        clumped = p_value(air_delays_us(log, runs[0], apart), air_delays_us(log, simulate(
+            self.folder, log, seed=2, send_time_ns=sent_when_read(READ_PERIOD_NS)), apart))
         log.header.append("# slot_ns=9000")
         short_slots = p_value(delays_us[0],
-                              air_delays_us(log, simulate(self.folder, log, seed=2), places))
-        print(f"N = {nodes}: {len(places)} of {len(log.frames)} frames; p of {PAIRS} pairs of "
+                              air_delays_us(log, simulate(self.folder, log, seed=2), contended))
+        print(f"N = {nodes}: {len(contended)} of {len(log.frames)} frames; p of {PAIRS} pairs of "
               f"seeds {min(same):.3f} ... {max(same):.3f}; {LATE_US:.0f} us late {late:.1g}, "
               f"clumped {clumped:.1g}, slots of 9 us {short_slots:.1g}", flush=True)
 
