@@ -93,6 +93,8 @@ class LiveRun {
   [[nodiscard]] const std::string& send_stamps_text() const noexcept { return send_stamps_text_; }
 
  private:
+  /// Numbers of the nodes that fly.
+  [[nodiscard]] std::vector<std::uint32_t> vehicles() const;
   void start_world();
   void reserve_processor();
   void build_nodes();
