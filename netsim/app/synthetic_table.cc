@@ -2,8 +2,10 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <span>
 #include <stdexcept>
 
+#include "netsim/app/city_of_message.h"
 #include "netsim/app/synthetic_configuration.h"
 
 namespace cuscus::netsim {
@@ -44,7 +46,10 @@ std::string result_fields(const SyntheticResult& r) {
 void print_runs(const proto::SyntheticRuns& runs, const std::function<std::ostream&()>& output) {
   std::ostream* out = nullptr;
   for (const proto::SyntheticRun& run : runs.runs()) {
-    const SyntheticParameters p = synthetic_parameters(run);
+    SyntheticParameters p = synthetic_parameters(run);
+    if (!runs.city().empty()) {
+      put_city(std::as_bytes(std::span{runs.city()}), p.air.channel);
+    }
     const std::string fields = result_fields(run_synthetic(p));
     if (out == nullptr) {
       out = &output();

@@ -12,6 +12,7 @@
 #include "common/posix/check.h"
 #include "common/posix/child_process.h"
 #include "common/scenario/units.h"
+#include "orchestrator/app/city_source.h"
 #include "orchestrator/app/commands.h"
 #include "orchestrator/app/exit_code.h"
 #include "orchestrator/app/ownership.h"
@@ -174,7 +175,9 @@ int draw(const AirPlotFiles& files, const std::string& title, bool over_nodes) {
 
 int air_command(const AirArguments& arguments) try {
   const SyntheticRequest request = request_of(arguments);
-  const proto::SyntheticRuns runs = synthetic_runs(request, scenarios_of(arguments));
+  const std::vector<scenario::Scenario> scenarios = scenarios_of(arguments);
+  proto::SyntheticRuns runs = synthetic_runs(request, scenarios);
+  runs.set_city(load_city(scenarios.front()));
   const std::vector<fs::path> files = check_output(arguments);
   int code = simulate(runs, arguments.out);
   if (code == kExitDone && arguments.plot) {

@@ -1,6 +1,6 @@
 #include "orchestrator/app/city_source.h"
 
-#include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,10 @@
 
 #include "common/city/generate/generate.h"
 #include "common/city/import/import_city.h"
+#include "common/city/transfer/city_message.h"
 #include "common/posix/shared_memory.h"
+#include "orchestrator/app/exit_code.h"
+#include "orchestrator/app/print.h"
 
 namespace cuscus::orchestrator {
 namespace {
@@ -48,21 +51,32 @@ city::ImportedCity import_generated(const scenario::GeneratedCity& generated,
 
 }  // namespace
 
-LoadedCity load_city(const scenario::Scenario& scenario) {
+std::string load_city(const scenario::Scenario& scenario) {
+  if (!scenario.city) {
+    return {};
+  }
   const scenario::CitySection& section = *scenario.city;
   const city::ImportOptions options = import_options(section, scenario.seed);
-  city::ImportedCity imported =
-      section.file ? city::import_city(std::span{&section.file->file, 1}, options)
-                   : import_generated(*section.generated, options, scenario.seed);
-  const city::CityFigures& figures = imported.report.figures;
-  return {.city = std::move(imported.city),
-          .summary = fmt::format("{} buildings up to {:.1f} m, {} streets, {} trees, {} woods",
-                                 figures.buildings, figures.tallest_m, figures.streets,
-                                 figures.trees, figures.woods),
-          .remarks = std::move(imported.report.remarks)};
+  try {
+    const city::ImportedCity imported =
+        section.file ? city::import_city(std::span{&section.file->file, 1}, options)
+                     : import_generated(*section.generated, options, scenario.seed);
+    const city::CityFigures& figures = imported.report.figures;
+    print(stderr, "city: {} buildings up to {:.1f} m, {} streets, {} trees, {} woods\n",
+          figures.buildings, figures.tallest_m, figures.streets, figures.trees, figures.woods);
+    for (const std::string& remark : imported.report.remarks) {
+      spdlog::warn("city: {}", remark);
+    }
+    return city::to_message(imported.city).SerializeAsString();
+  } catch (const city::CityFileError& error) {
+    throw UsageError{error.what()};
+  }
 }
 
 posix::UniqueFd city_memory(const std::string& message) {
+  if (message.empty()) {
+    return {};
+  }
   auto memory = posix::create_shared_memory("cuscus-city", message.size());
   const auto mapping = posix::MemoryMapping::read_write(memory);
   std::ranges::copy(std::as_bytes(std::span{message}), mapping.writable_bytes().begin());

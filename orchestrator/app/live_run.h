@@ -33,6 +33,7 @@ struct RunSettings {
   std::filesystem::path programs;                     ///< Folder of our own executables.
   const RunDirectory& directory;                      ///< For one log per process.
   posix::UniqueFd page_listener;                      ///< Empty: no page.
+  posix::UniqueFd city;                               ///< proto::CityModel; empty: there is none.
   posix::UniqueFd frame_log;                          ///< Empty: none is wanted.
   posix::UniqueFd reception_log;                      ///< Likewise.
   std::map<std::uint32_t, posix::UniqueFd> captures;  ///< Files, by node.

@@ -137,6 +137,9 @@ void LiveRun::start_netsim() {
   if (send_stamps_) {
     given.push_back({Descriptors::KIND_SEND_STAMP_RING, 0, send_stamps_->fd()});
   }
+  if (settings_.city) {
+    given.push_back({Descriptors::KIND_CITY, 0, settings_.city.get()});
+  }
   if (settings_.frame_log) {
     given.push_back({Descriptors::KIND_FRAME_LOG, 0, settings_.frame_log.get()});
   }

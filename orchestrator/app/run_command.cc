@@ -10,7 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "common/city/transfer/city_message.h"
 #include "common/posix/check.h"
+#include "orchestrator/app/city_source.h"
 #include "orchestrator/app/commands.h"
 #include "orchestrator/app/exit_code.h"
 #include "orchestrator/app/findings.h"
@@ -172,6 +174,8 @@ int run_command(const RunArguments& arguments) {
     spdlog::warn("{}", warning);
   }
 
+  const std::string city = load_city(scenario);
+
   // Named before an ordinary user becomes root of a namespace, for `cuscus ps` to look there too.
   const RunRegistry registry{RunRegistry::default_folder()};
   const node::Rights rights = acquire_run_rights();
@@ -194,6 +198,10 @@ int run_command(const RunArguments& arguments) {
   directory.write_file(std::string{kResolvedScenarioFile},
                        resolved_scenario(scenario).dump(2) + "\n");
 
+  if (!city.empty()) {
+    directory.write_file(city::kCityFile, city);
+  }
+
   const bool page = static_cast<bool>(page_listener);
   print(stderr, "run {}: {} nodes for {:.0f} s{}\n", run_id, plan.nodes.size(),
         to_seconds(plan.duration),
@@ -207,6 +215,7 @@ int run_command(const RunArguments& arguments) {
                .programs = programs,
                .directory = directory,
                .page_listener = std::move(page_listener),
+               .city = city_memory(city),
                .frame_log = file_if(plan.record_frames, directory, kFrameLogFile),
                .reception_log = file_if(plan.record_receptions, directory, kReceptionLogFile),
                .captures = create_captures(plan, directory)}};

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/scenario/programs.h"
+#include "orchestrator/app/city_source.h"
 #include "orchestrator/app/commands.h"
 #include "orchestrator/app/exit_code.h"
 #include "orchestrator/plan/plan.h"
@@ -41,7 +42,9 @@ scenario::Scenario load(const ScenarioArguments& arguments) {
 }
 
 int check_command(const ScenarioArguments& arguments, bool json) {
-  const Plan plan = make_plan(load(arguments));
+  const scenario::Scenario scenario = load(arguments);
+  static_cast<void>(load_city(scenario));
+  const Plan plan = make_plan(scenario);
   if (json) {
     fmt::print("{}\n", to_json(plan).dump(2));
   } else {
