@@ -53,6 +53,9 @@ class OutlineIndex {
       return a.second == b.second;
     });
     near.erase(last, near.end());
+    if (const auto only = only_holder(part, near)) {
+      return only;
+    }
     std::optional<std::size_t> best;
     constexpr double kTouching_m2 = 0.01;
     double most_m2 = kTouching_m2;
@@ -70,12 +73,32 @@ class OutlineIndex {
   using Entry = std::pair<IndexBox, std::size_t>;
   using Tree = bgi::rtree<Entry, bgi::rstar<16>>;
 
+  /// The outline that all of the part is in, when there is one such. Spares most parts the cost of
+  /// shared().
+  [[nodiscard]] std::optional<std::size_t> only_holder(const Shape& part,
+                                                       const std::vector<Entry>& near) const {
+    std::optional<std::size_t> only;
+    for (const auto& [box, outline] : near) {
+      const auto& footprints = outlines_[outline].footprints;
+      const bool holds = std::ranges::all_of(part.footprints, [&](const Footprint& inner) {
+        return std::ranges::any_of(footprints, [&](const Footprint& outer) {
+          return bounds_of(outer).contains(bounds_of(inner)) && holds_corners(outer, inner);
+        });
+      });
+      if (holds && only) {
+        return std::nullopt;
+      }
+      only = holds ? outline : only;
+    }
+    return only;
+  }
+
   static double shared(const Shape& part, const Shape& outline) {
     double sum_m2 = 0.0;
     for (const Footprint& a : part.footprints) {
       for (const Footprint& b : outline.footprints) {
         if (bounds_of(a).intersects(bounds_of(b))) {
-          sum_m2 += overlap_m2(a, b);
+          sum_m2 += overlap_m2(a, b).value_or(0.0);
         }
       }
     }
@@ -113,6 +136,7 @@ class Builder {
     std::vector<Prism> outline_prisms =
         prisms_of(outline, bottom_m(area, own.top_m, site_.rule, file), own.top_m);
     std::vector<Prism> part_prisms;
+    std::vector<const AreaRecord*> part_areas;  // one for each prism
     double highest_m = 0.0;
     HeightSource highest_source = own.source;
     for (const Shape* part : parts) {
@@ -122,13 +146,20 @@ class Builder {
       const auto prisms =
           prisms_of(*part, bottom_m(*part->area, top.top_m, site_.rule, part_file), top.top_m);
       part_prisms.insert(part_prisms.end(), prisms.begin(), prisms.end());
+      part_areas.resize(part_prisms.size(), part->area);
       if (top.top_m > highest_m) {
         highest_m = top.top_m;
         highest_source = top.source;
       }
     }
     UnitedPrisms united = unite_parts(outline_prisms, part_prisms);
-    report_parts(united, area.object, file);
+    for (const std::size_t hidden : united.hidden_parts) {
+      const AreaRecord& part = *part_areas[hidden];
+      report_.files[part.file].add(Problem::kHiddenPart, part.object);
+    }
+    if (!united.exact) {
+      file.add(Problem::kOverlapLeft, area.object);
+    }
     for (Prism& prism : united.prisms) {
       prism.bottom_m += base_m;
       prism.top_m += base_m;
@@ -199,15 +230,6 @@ class Builder {
       report_.files[area.file].add(Problem::kUnknownMaterial, area.object, text);
     }
     return walls;
-  }
-
-  static void report_parts(const UnitedPrisms& united, const ObjectId& object, FileReport& file) {
-    for (std::size_t i = 0; i < united.hidden_parts; ++i) {
-      file.add(Problem::kHiddenPart, object, "of this building");
-    }
-    if (!united.exact) {
-      file.add(Problem::kOverlapLeft, object, "of this building");
-    }
   }
 
   void note(const Shape& outline, const Building& building, double base_m) {

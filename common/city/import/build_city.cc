@@ -1,9 +1,13 @@
 #include "common/city/import/build_city.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "common/city/import/city_parts.h"
 #include "common/city/import/footprints.h"
@@ -70,8 +74,15 @@ std::string box_text(const GeoBox& box) {
   throw CityFileError{files + ": " + cause};
 }
 
-/// Beyond this the plane is no picture of the earth's surface: at 50 km it is 200 m above it.
-constexpr double kLargestCity_m = 100'000.0;
+/// Larger than 100 km either way. There the plane is no picture of the earth's surface any more:
+/// 50 km from the origin it is 196 m above it.
+bool is_larger_than_a_city(const GeoBox& box) {
+  constexpr double kLargest_m = 100'000.0;
+  constexpr double kDegree_m = 111'200.0;  // of latitude
+  const double middle_rad = (box.south_deg + box.north_deg) / 2.0 * std::numbers::pi / 180.0;
+  return (box.north_deg - box.south_deg) * kDegree_m > kLargest_m ||
+         (box.east_deg - box.west_deg) * kDegree_m * std::cos(middle_rad) > kLargest_m;
+}
 
 /// The box in the frame: its four corners' bounds.
 Eigen::AlignedBox2d local_box(const GeoBox& box, const Site& site) {
@@ -90,10 +101,10 @@ Geodetic origin_of(const GeoBox& box) {
           .height_m = 0.0};
 }
 
-void add_terrain(City& city, const Site& site, const Eigen::AlignedBox2d& box,
-                 const TerrainFile& file, ImportReport& report) {
-  const AsciiGrid grid = read_ascii_grid(file.file);
-  Ground ground = ground_of(grid, file.frame, site.frame, box);
+/// The city's ground, and what is wrong with it.
+Terrain terrain_of(const AsciiGrid& grid, const TerrainFile& file, const LocalFrame& frame,
+                   const Eigen::AlignedBox2d& box, ImportReport& report) {
+  Ground ground = ground_of(grid, file.frame, frame, box);
   if (!ground.covered) {
     report.remarks.push_back(file.file.native() +
                              ": does not cover the city; beyond it the ground is as at its edge");
@@ -102,7 +113,7 @@ void add_terrain(City& city, const Site& site, const Eigen::AlignedBox2d& box,
     report.remarks.push_back(file.file.native() + ": " + std::to_string(grid.holes) +
                              " cells have no height; they have the lowest height of all");
   }
-  city.terrain = std::move(ground.terrain);
+  return std::move(ground.terrain);
 }
 
 }  // namespace
@@ -155,20 +166,28 @@ City build_city(OsmRecords records, const ImportOptions& options, ImportReport& 
                        (records.extent ? "; the data span " + box_text(*records.extent) : ""));
   }
   const GeoBox whole = options.bounds.value_or(*built);
-  const LocalFrame frame{options.origin.value_or(origin_of(whole))};
+  if (is_larger_than_a_city(whole)) {
+    refuse(report, "spans " + box_text(whole) +
+                       ", more than 100 km; allowed: a city, cut out by a bounding box");
+  }
+  Geodetic origin = options.origin.value_or(origin_of(whole));
+  std::optional<AsciiGrid> grid;
+  if (options.terrain) {
+    grid = read_ascii_grid(options.terrain->file);
+    if (!options.origin) {
+      origin.height_m = height_at_origin(*grid, options.terrain->frame, origin);
+    }
+  }
+  const LocalFrame frame{origin};
   City city;
   city.origin = frame.origin();
   Site site{.frame = frame, .rule = options.rule, .terrain = city.terrain, .box = {}};
   const Eigen::AlignedBox2d box = local_box(whole, site);
-  if (box.sizes().maxCoeff() > kLargestCity_m) {
-    refuse(report, "spans " + box_text(whole) +
-                       ", more than 100 km; allowed: a city, cut out by a bounding box");
-  }
   if (options.bounds) {
     site.box = box;
   }
-  if (options.terrain) {
-    add_terrain(city, site, box, *options.terrain, report);
+  if (grid) {
+    city.terrain = terrain_of(*grid, *options.terrain, frame, box, report);
   }
   city.buildings = build_buildings(records.areas, site, report);
   city.streets = build_streets(records.streets, site, report);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/geometry/algorithms/area.hpp>
+#include <boost/geometry/algorithms/covered_by.hpp>
 #include <boost/geometry/algorithms/difference.hpp>
 #include <boost/geometry/algorithms/intersection.hpp>
 #include <boost/geometry/geometries/box.hpp>
@@ -69,32 +70,53 @@ Footprint on_grid(Footprint footprint) {
   return footprint;
 }
 
-/// None: Boost.Geometry failed, or contradicts itself.
-std::optional<std::vector<Footprint>> difference(const Footprint& whole, const Footprint& other) {
+struct Overlay {
+  MultiPolygon rest;  ///< Of the one, beside the other.
+  double common_m2{0.0};
+};
+
+/// None: Boost.Geometry failed, or contradicts itself. 1.74 sometimes does, where edges almost lie
+/// on one another.
+std::optional<Overlay> overlay(const Footprint& one, const Footprint& other) {
   try {
-    const Polygon from = polygon_of(whole);
+    const Polygon from = polygon_of(one);
     const Polygon what = polygon_of(other);
-    MultiPolygon rest;
+    Overlay result;
     MultiPolygon common;
-    bg::difference(from, what, rest);
+    bg::difference(from, what, result.rest);
     bg::intersection(from, what, common);
-    const double expected_m2 = bg::area(from) - bg::area(common);
-    if (!(std::abs(bg::area(rest) - expected_m2) < kAreaNoise_m2 + 1e-6 * bg::area(from))) {
-      return std::nullopt;
-    }
-    if (bg::area(common) < kAreaNoise_m2) {
-      return std::vector{whole};
-    }
-    std::vector<Footprint> pieces;
-    for (const Polygon& piece : rest) {
-      if (auto usable = normalized(footprint_of(piece))) {
-        pieces.push_back(std::move(*usable));
-      }
-    }
-    return pieces;
+    result.common_m2 = bg::area(common);
+    const double expected_m2 = bg::area(from) - result.common_m2;
+    const bool agree =
+        std::abs(bg::area(result.rest) - expected_m2) < kAreaNoise_m2 + 1e-6 * bg::area(from);
+    return agree ? std::optional{std::move(result)} : std::nullopt;
   } catch (const bg::exception&) {
     return std::nullopt;
   }
+}
+
+/// With a second attempt on rounded corners.
+std::optional<Overlay> careful_overlay(const Footprint& one, const Footprint& other) {
+  auto result = overlay(one, other);
+  return result ? std::move(result) : overlay(on_grid(one), on_grid(other));
+}
+
+/// None: cannot be known.
+std::optional<std::vector<Footprint>> difference(const Footprint& whole, const Footprint& other) {
+  const auto result = careful_overlay(whole, other);
+  if (!result) {
+    return std::nullopt;
+  }
+  if (result->common_m2 < kAreaNoise_m2) {
+    return std::vector{whole};
+  }
+  std::vector<Footprint> pieces;
+  for (const Polygon& piece : result->rest) {
+    if (auto usable = normalized(footprint_of(piece))) {
+      pieces.push_back(std::move(*usable));
+    }
+  }
+  return pieces;
 }
 
 double perimeter_m(const Ring& ring) {
@@ -151,14 +173,28 @@ Eigen::AlignedBox2d bounds_of(const Footprint& footprint) {
   return box;
 }
 
-double overlap_m2(const Footprint& one, const Footprint& other) {
-  MultiPolygon common;
-  try {
-    bg::intersection(polygon_of(one), polygon_of(other), common);
-  } catch (const bg::exception&) {
+bool holds_corners(const Footprint& outer, const Footprint& inner) {
+  const Polygon polygon = polygon_of(outer);
+  return std::ranges::all_of(inner.outer, [&](const auto& p) {
+    return bg::covered_by(Point{p.x(), p.y()}, polygon);
+  });
+}
+
+std::optional<double> overlap_m2(const Footprint& one, const Footprint& other) {
+  if (!bounds_of(one).intersects(bounds_of(other))) {
     return 0.0;
   }
-  return bg::area(common);
+  try {
+    MultiPolygon common;
+    bg::intersection(polygon_of(one), polygon_of(other), common);
+    if (bg::area(common) < kAreaNoise_m2) {
+      return 0.0;
+    }
+  } catch (const bg::exception&) {
+    // Once more below.
+  }
+  const auto result = careful_overlay(one, other);
+  return result ? std::optional{result->common_m2} : std::nullopt;
 }
 
 std::optional<Footprint> normalized(Footprint footprint) {
@@ -189,17 +225,14 @@ Remainder subtract(const Footprint& whole, std::span<const Footprint* const> oth
         left.push_back(std::move(piece));
         continue;
       }
-      auto pieces = difference(piece, *other);
-      if (!pieces) {
-        pieces = difference(on_grid(piece), on_grid(*other));
-      }
+      const auto pieces = difference(piece, *other);
       if (!pieces) {
         result.exact = false;
         left.push_back(std::move(piece));
         continue;
       }
       cut = cut || pieces->size() != 1 || area_m2(pieces->front()) != area_m2(piece);
-      std::ranges::move(*pieces, std::back_inserter(left));
+      left.insert(left.end(), pieces->begin(), pieces->end());
     }
     result.pieces = std::move(left);
   }

@@ -18,8 +18,11 @@ namespace cuscus::city {
 /// Twice the area over the perimeter: the width of something long [m].
 [[nodiscard]] double mean_width_m(const Footprint& footprint);
 [[nodiscard]] Eigen::AlignedBox2d bounds_of(const Footprint& footprint);
-/// Of both at once [m^2].
-[[nodiscard]] double overlap_m2(const Footprint& one, const Footprint& other);
+/// True when every corner of `inner` is within `outer` or on its outline, which is enough for
+/// buildings.
+[[nodiscard]] bool holds_corners(const Footprint& outer, const Footprint& inner);
+/// Of both at once [m^2]; none: cannot be known.
+[[nodiscard]] std::optional<double> overlap_m2(const Footprint& one, const Footprint& other);
 
 /// Rings as City wants them: open, no corner twice in a row, the outer one counter-clockwise.
 /// None: the outer ring has less than three corners or no area. Courtyards without area vanish.

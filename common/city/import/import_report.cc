@@ -35,7 +35,7 @@ constexpr std::array<Description, kProblems> kDescriptions{{
     {Problem::kPartAlone, false, {"part_alone", "the part has no building: taken for one itself"}},
     {Problem::kOverlapLeft,
      false,
-     {"overlap_left", "the part may share volume with another: they could not be cut apart"}},
+     {"overlap_left", "its parts may share volume: they could not be cut apart"}},
 }};
 
 constexpr bool in_order() {

@@ -170,6 +170,11 @@ AsciiGrid read_ascii_grid(const std::filesystem::path& file) {
   return read_ascii_grid(stream, file.native());
 }
 
+double height_at_origin(const AsciiGrid& grid, TerrainFrame unit, const Geodetic& origin) {
+  return unit == TerrainFrame::kLocal ? grid.at(0.0, 0.0)
+                                      : grid.at(origin.longitude_deg, origin.latitude_deg);
+}
+
 Ground ground_of(const AsciiGrid& grid, TerrainFrame unit, const LocalFrame& frame,
                  const Eigen::AlignedBox2d& box) {
   const auto in_grid = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
@@ -191,15 +196,13 @@ Ground ground_of(const AsciiGrid& grid, TerrainFrame unit, const LocalFrame& fra
   terrain.cell_m = cell_m;
   terrain.columns = static_cast<std::size_t>(std::ceil(box.sizes().x() / cell_m)) + 1;
   terrain.rows = static_cast<std::size_t>(std::ceil(box.sizes().y() / cell_m)) + 1;
-  const Eigen::Vector2d origin = in_grid(Eigen::Vector2d::Zero());
-  ground.origin_height_m = grid.at(origin.x(), origin.y());
+  const double origin_m = height_at_origin(grid, unit, frame.origin());
   terrain.height_m.reserve(terrain.columns * terrain.rows);
   for (std::size_t r = 0; r < terrain.rows; ++r) {
     for (std::size_t c = 0; c < terrain.columns; ++c) {
       const Eigen::Vector2d p = in_grid(
           box.min() + cell_m * Eigen::Vector2d{static_cast<double>(c), static_cast<double>(r)});
-      terrain.height_m.push_back(
-          static_cast<float>(grid.at(p.x(), p.y()) - ground.origin_height_m));
+      terrain.height_m.push_back(static_cast<float>(grid.at(p.x(), p.y()) - origin_m));
     }
   }
   for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,

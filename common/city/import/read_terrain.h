@@ -35,11 +35,14 @@ struct AsciiGrid {
 [[nodiscard]] AsciiGrid read_ascii_grid(std::istream& stream, const std::string& name);
 [[nodiscard]] AsciiGrid read_ascii_grid(const std::filesystem::path& file);
 
-/// A city's ground from a grid: heights over the height at the frame's origin.
+/// The grid's height where a city has its origin.
+[[nodiscard]] double height_at_origin(const AsciiGrid& grid, TerrainFrame unit,
+                                      const Geodetic& origin);
+
+/// A city's ground from a grid: heights over the ground at the frame's origin.
 struct Ground {
   Terrain terrain;
-  double origin_height_m{0.0};  ///< In the grid's own heights.
-  bool covered{true};           ///< False: a part of the box lies beyond the grid.
+  bool covered{true};  ///< False: a part of the box lies beyond the grid.
 };
 [[nodiscard]] Ground ground_of(const AsciiGrid& grid, TerrainFrame unit, const LocalFrame& frame,
                                const Eigen::AlignedBox2d& box);

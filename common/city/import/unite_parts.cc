@@ -15,13 +15,14 @@ bool overlap_in_height(const Prism& one, const Prism& other) {
   return one.bottom_m < other.top_m && other.bottom_m < one.top_m;
 }
 
-/// Of `taken` those that share volume with the prism.
+/// Of `taken` those that share volume with the prism, or may.
 std::vector<const Prism*> rivals_of(const Prism& prism, const std::vector<Prism>& taken) {
   std::vector<const Prism*> rivals;
   const Eigen::AlignedBox2d box = bounds_of(prism.footprint);
   for (const Prism& other : taken) {
     if (overlap_in_height(prism, other) && box.intersects(bounds_of(other.footprint)) &&
-        overlap_m2(prism.footprint, other.footprint) > kTouching_m2) {
+        overlap_m2(prism.footprint, other.footprint).value_or(area_m2(other.footprint)) >
+            kTouching_m2) {
       rivals.push_back(&other);
     }
   }
@@ -76,8 +77,9 @@ UnitedPrisms unite_parts(const std::vector<Prism>& outlines, const std::vector<P
   }
   std::ranges::sort(order);
   for (const auto& entry : order) {
-    if (!add_free(parts[std::get<2>(entry)], united)) {
-      ++united.hidden_parts;
+    const std::size_t part = std::get<2>(entry);
+    if (!add_free(parts[part], united)) {
+      united.hidden_parts.push_back(part);
     }
   }
   std::vector<const Footprint*> covered;

@@ -285,6 +285,7 @@ TEST_CASE("on a slope a building stands on the lowest ground under it") {
   const Built built = build(osm, options);
 
   REQUIRE(built.city.terrain);
+  CHECK(built.city.origin.height_m == Approx(100.0));
   const Prism& western = built.building(1).prisms.at(0);
   CHECK(western.bottom_m == Approx(-0.1 * kEast_m).epsilon(1e-4));
   CHECK(western.top_m == Approx(western.bottom_m + 12.0));
