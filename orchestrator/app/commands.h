@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -68,6 +69,19 @@ struct WhyArguments {
   bool csv{false};
 };
 int why_command(const WhyArguments& arguments);
+
+/// What `cuscus city` is asked for, as it was written.
+struct CityArguments {
+  std::vector<std::filesystem::path> files;
+  std::optional<std::string> bounds;             ///< "W,S,E,N" in degrees.
+  std::optional<std::string> heights;            ///< "10m..15m", of buildings without any.
+  std::optional<std::filesystem::path> terrain;  ///< ESRI ASCII grid in degrees.
+  std::uint64_t seed{1};
+  bool json{false};
+};
+/// Imports a city and says what was understood of it, and what was not.
+int city_command(const CityArguments& arguments);
+
 int clean_command();
 int doctor_command(std::size_t nodes);
 

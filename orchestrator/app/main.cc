@@ -64,6 +64,17 @@ void add_air_options(CLI::App& command, orchestrator::AirArguments& air) {
   command.add_flag("--plot", air.plot, "draw --out FILE: .gp, .svg and .png beside it; by gnuplot");
 }
 
+void add_city_options(CLI::App& command, orchestrator::CityArguments& city) {
+  command.add_option("FILE", city.files, "OpenStreetMap: .osm, .osm.gz, .osm.bz2 or .osm.pbf");
+  command.add_option("--bbox", city.bounds, "WEST,SOUTH,EAST,NORTH in degrees (the whole file)");
+  command.add_option("--heights", city.heights,
+                     "of buildings with neither height nor levels, such as 50m..150m (10m..15m)");
+  command.add_option("--terrain", city.terrain,
+                     "heights of the ground: ESRI ASCII grid in degrees");
+  command.add_option("--seed", city.seed, "of the random heights")->capture_default_str();
+  command.add_flag("--json", city.json, "as JSON");
+}
+
 /// Options and what to do with them; declared together so that they live as long as the parser.
 struct CommandLine {
   CLI::App app{"Flies a fleet of UAVs and their radio network together on one machine.", "cuscus"};
@@ -71,6 +82,7 @@ struct CommandLine {
   orchestrator::ScenarioArguments check;
   orchestrator::WhyArguments why;
   orchestrator::AirArguments air;
+  orchestrator::CityArguments city;
   bool check_json{false};
   bool schema{false};
   bool ps_json{false};
@@ -97,6 +109,8 @@ struct CommandLine {
         *app.add_subcommand(
             "air", "simulate the scenario's radio under synthetic traffic; needs no privileges"),
         air);
+    add_city_options(*app.add_subcommand("city", "import a city: what is understood of a map"),
+                     city);
     app.add_subcommand("schema", "print the JSON schema of scenarios");
     auto* const ps_command = app.add_subcommand("ps", "list the runs of this machine");
     ps_command->add_flag("--json", ps_json, "as JSON, with every node");
@@ -151,6 +165,9 @@ struct CommandLine {
     }
     if (app.got_subcommand("air")) {
       return orchestrator::air_command(air);
+    }
+    if (app.got_subcommand("city")) {
+      return orchestrator::city_command(city);
     }
     if (app.got_subcommand("schema")) {
       return orchestrator::schema_command();

@@ -1,0 +1,102 @@
+#include <array>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/city/import/import_city.h"
+#include "common/scenario/units.h"
+#include "orchestrator/app/city_report.h"
+#include "orchestrator/app/commands.h"
+#include "orchestrator/app/exit_code.h"
+#include "orchestrator/app/print.h"
+
+namespace cuscus::orchestrator {
+namespace {
+
+/// W,S,E,N in degrees.
+city::GeoBox bounds_of(const std::string& text) {
+  std::array<double, 4> degrees{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  bool good = true;
+  for (std::size_t i = 0; i < degrees.size() && good; ++i) {
+    const auto [next, error] = std::from_chars(at, end, degrees[i], std::chars_format::fixed);
+    const bool last = i + 1 == degrees.size();
+    good = error == std::errc{} && (last ? next == end : next != end && *next == ',');
+    at = last ? next : next + 1;
+  }
+  const auto [west, south, east, north] = degrees;
+  // Written so that NaN is refused too.
+  if (!good || !(west >= -180.0 && west < east && east <= 180.0) ||
+      !(south >= -90.0 && south < north && north <= 90.0)) {
+    throw UsageError{fmt::format(
+        "--bbox {}: allowed: WEST,SOUTH,EAST,NORTH in degrees, such as 11.33,44.49,11.35,44.50",
+        text)};
+  }
+  return {west, south, east, north};
+}
+
+double height_m(const std::string& whole, const std::string& text) {
+  try {
+    return scenario::parse_quantity(text, scenario::kLength);
+  } catch (const scenario::UnitError& error) {
+    throw UsageError{fmt::format("--heights {}: {}", whole, error.what())};
+  }
+}
+
+/// "10m..15m".
+city::HeightRange heights_of(const std::string& text) {
+  constexpr std::string_view kTo = "..";
+  const auto to = text.find(kTo);
+  if (to == std::string::npos) {
+    throw UsageError{fmt::format("--heights {}: allowed: two lengths, such as 10m..15m", text)};
+  }
+  const city::HeightRange heights{height_m(text, text.substr(0, to)),
+                                  height_m(text, text.substr(to + kTo.size()))};
+  constexpr double kHighest_m = 1000.0;
+  if (!(heights.lowest_m > 0.0 && heights.lowest_m <= heights.highest_m &&
+        heights.highest_m <= kHighest_m)) {
+    throw UsageError{
+        fmt::format("--heights {}: allowed: above 0 m, up to 1000 m, the lower one first", text)};
+  }
+  return heights;
+}
+
+city::ImportOptions options_of(const CityArguments& arguments) {
+  city::ImportOptions options;
+  if (arguments.bounds) {
+    options.bounds = bounds_of(*arguments.bounds);
+  }
+  if (arguments.heights) {
+    options.rule.heights = heights_of(*arguments.heights);
+  }
+  if (arguments.terrain) {
+    options.terrain = city::TerrainFile{.file = *arguments.terrain};
+  }
+  options.rule.seed = arguments.seed;
+  return options;
+}
+
+}  // namespace
+
+int city_command(const CityArguments& arguments) try {
+  if (arguments.files.empty()) {
+    throw UsageError{"city: a FILE is missing: .osm, .osm.gz, .osm.bz2 or .osm.pbf"};
+  }
+  const city::ImportedCity imported = city::import_city(arguments.files, options_of(arguments));
+  if (arguments.json) {
+    // Names may be of any bytes.
+    constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+    print(stdout, "{}\n", city_json(imported).dump(2, ' ', false, kReplace));
+  } else {
+    print(stdout, "{}", city_text(imported));
+  }
+  return kExitDone;
+} catch (const city::CityFileError& error) {
+  throw UsageError{error.what()};
+}
+
+}  // namespace cuscus::orchestrator
