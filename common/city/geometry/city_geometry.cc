@@ -106,7 +106,7 @@ std::optional<Hit> CityGeometry::first_hit(const Eigen::Vector3d& p_WO,
     nearest.add(*t, buried ? -direction / norm : parts_->ground.normal(foot), Body::kGround, 0);
   }
   parts_->prisms.first_along(p_WO, way, [&](std::uint32_t place) {
-    nearest.add(parts_->prism(place), Body::kBuilding, parts_->places[place].building);
+    nearest.add(*parts_->places[place].prism, Body::kBuilding, parts_->places[place].building);
     return nearest.limit();
   });
   parts_->plants.first_along(p_WO, way, [&](std::uint32_t plant) {
@@ -234,7 +234,7 @@ std::optional<std::uint32_t> CityGeometry::inside(const Eigen::Vector3d& p_W) co
   std::optional<std::uint32_t> found;
   parts_->prisms.around(p_W, 0.0, [&](std::uint32_t place) {
     const std::uint32_t building = parts_->places[place].building;
-    if ((!found || building < *found) && parts_->prism(place).contains(p_W)) {
+    if ((!found || building < *found) && parts_->places[place].prism->contains(p_W)) {
       found = building;
     }
   });

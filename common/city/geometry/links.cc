@@ -1,6 +1,5 @@
 // What radio asks of a CityGeometry: what is on a segment, or near it.
 #include <algorithm>
-#include <numeric>
 
 #include "common/city/geometry/parts.h"
 #include "common/city/geometry/refuse.h"
@@ -9,6 +8,7 @@ namespace cuscus::city {
 namespace {
 
 using Indices = boost::container::small_vector<std::uint32_t, 64>;
+using Prisms = boost::container::small_vector<const PrismShape*, 16>;
 
 /// Whether p(t) = start + t way, 0 <= t <= 1, comes as near to a box on every axis.
 bool passes_by(const Box& box, const Eigen::Vector3d& start, const Eigen::Vector3d& way,
@@ -44,10 +44,16 @@ void CityGeometry::crossings(const Eigen::Vector3d& p_WA, const Eigen::Vector3d&
   Indices places;
   parts_->prisms.any_along(segment.a, segment.b - segment.a, [&](std::uint32_t place) {
     places.push_back(place);
+    __builtin_prefetch(parts_->places[place].prism);
     return false;
   });
   std::sort(places.begin(), places.end());
-  Indices prisms;
+  // Most of the time goes into waiting for memory: ask for all of it before the first is needed.
+  for (const std::uint32_t place : places) {
+    parts_->places[place].prism->prefetch();
+    __builtin_prefetch(&parts_->buildings[parts_->places[place].building]);
+  }
+  Prisms prisms;
   for (std::size_t i = 0; i < places.size();) {
     const std::uint32_t building = parts_->places[places[i]].building;
     prisms.clear();
@@ -63,8 +69,10 @@ bool CityGeometry::append_crossing(std::uint32_t building, const Eigen::Vector3d
                                    const Eigen::Vector3d& p_WB, Crossings& found) const {
   require_finite(p_WA, p_WB);
   const SolidShape& shape = parts_->buildings.at(building);
-  Indices prisms(shape.prisms().size());
-  std::iota(prisms.begin(), prisms.end(), 0U);
+  Prisms prisms;
+  for (const PrismShape& prism : shape.prisms()) {
+    prisms.push_back(&prism);
+  }
   return shape.append_crossing(Segment{p_WA, p_WB}, {prisms.data(), prisms.size()}, building,
                                found);
 }
@@ -75,7 +83,7 @@ bool CityGeometry::blocked(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p
   Intervals inside;
   return parts_->prisms.any_along(segment.a, segment.b - segment.a, [&](std::uint32_t place) {
     inside.clear();
-    parts_->prism(place).append_inside(segment, inside);
+    parts_->places[place].prism->append_inside(segment, inside);
     cut_to_segment(inside);
     return !inside.empty();
   });

@@ -35,12 +35,15 @@ CityGeometry::Parts::Parts(const City& city)
   for (const Building& building : city.buildings) {
     std::vector<PrismShape> shapes;
     for (const Prism& prism : building.prisms) {
-      places.push_back({.building = static_cast<std::uint32_t>(buildings.size()),
-                        .prism = static_cast<std::uint32_t>(shapes.size())});
       shapes.push_back(standing(prism.footprint, prism.bottom_m, prism.top_m, ground));
       boxes.push_back(shapes.back().box());
     }
     buildings.emplace_back(std::move(shapes), building.room_m);
+  }
+  for (std::uint32_t building = 0; building < buildings.size(); ++building) {
+    for (const PrismShape& prism : buildings[building].prisms()) {
+      places.push_back({.prism = &prism, .building = building});
+    }
   }
   std::vector<Box> plant_boxes;
   for (const Tree& tree : city.trees) {

@@ -18,15 +18,11 @@ inline constexpr double kWide_m = 8.0;
 struct CityGeometry::Parts {
   explicit Parts(const City& city);
 
-  /// A prism of a building.
+  /// A prism, and the building whose it is.
   struct Place {
+    const PrismShape* prism;
     std::uint32_t building;
-    std::uint32_t prism;
   };
-
-  [[nodiscard]] const PrismShape& prism(std::uint32_t place) const {
-    return buildings[places[place].building].prisms()[places[place].prism];
-  }
 
   Ground ground;
   std::vector<SolidShape> buildings;

@@ -46,7 +46,10 @@ class PrismShape final {
     return p.z() >= bottom_m_ && p.z() < top_m_ && covers(p.head<2>());
   }
 
-  /// Appends where the segment's line, to both sides without end, is inside.
+  /// Has it fetched from memory, for questions that are to come.
+  void prefetch() const;
+  /// Appends where the segment's line is inside, beyond the segment's ends too; parts that end
+  /// before it or begin behind it may be left out.
   void append_inside(const Segment& segment, Intervals& parts) const;
   /// Appends where it is above, in or below the footprint.
   void append_over(const Segment& segment, Intervals& parts) const;
@@ -74,6 +77,7 @@ class PrismShape final {
 
   std::vector<Side> sides_;
   std::size_t outer_sides_{0};
+  std::vector<std::size_t> courtyard_ends_;  ///< In sides_.
   double bottom_m_;
   double top_m_;
 };

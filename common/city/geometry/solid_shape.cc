@@ -52,11 +52,11 @@ bool SolidShape::contains(const Eigen::Vector3d& p) const {
                      [&p](const PrismShape& prism) { return prism.contains(p); });
 }
 
-bool SolidShape::append_crossing(const Segment& segment, std::span<const std::uint32_t> prisms,
+bool SolidShape::append_crossing(const Segment& segment, std::span<const PrismShape* const> prisms,
                                  std::uint32_t building, Crossings& found) const {
   Intervals parts;
-  for (const std::uint32_t prism : prisms) {
-    prisms_[prism].append_inside(segment, parts);
+  for (const PrismShape* prism : prisms) {
+    prism->append_inside(segment, parts);
   }
   if (parts.empty()) {
     return false;
@@ -88,7 +88,7 @@ bool SolidShape::append_crossing(const Segment& segment, std::span<const std::ui
     std::reverse(found.inside.begin() + crossing.first, found.inside.end());
   }
   crossing.length_m = share * length_m;
-  crossing.level_m = share * std::hypot(way.x(), way.y());
+  crossing.level_m = share * way.head<2>().norm();
   if (room_m_ > 0.0) {
     count_inner_walls(segment, parts, crossing);
   }

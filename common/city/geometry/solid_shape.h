@@ -30,7 +30,7 @@ class SolidShape final {
   [[nodiscard]] bool contains(const Eigen::Vector3d& p) const;
 
   /// Appends what the segment goes through, of these prisms of it, to `found`; false if nothing.
-  bool append_crossing(const Segment& segment, std::span<const std::uint32_t> prisms,
+  bool append_crossing(const Segment& segment, std::span<const PrismShape* const> prisms,
                        std::uint32_t building, Crossings& found) const;
   [[nodiscard]] Turns turns(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
   [[nodiscard]] double clearance_m(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
