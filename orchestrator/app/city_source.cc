@@ -45,8 +45,8 @@ city::ImportedCity import_generated(const scenario::GeneratedCity& generated,
                                         .seed = generated.seed.value_or(seed),
                                         .size_m = generated.size_m};
   options.origin = city::generate::default_origin(request.style);
-  return city::import_city(city::generate::make_osm(request), city::OsmFormat::kXml,
-                           "the generated city", options);
+  return city::import_city_text(city::generate::make_osm(request), city::OsmFormat::kXml,
+                                "the generated city", options);
 }
 
 }  // namespace

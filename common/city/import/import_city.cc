@@ -38,4 +38,16 @@ ImportedCity import_city(std::span<const std::filesystem::path> files,
   return imported;
 }
 
+ImportedCity import_city_text(std::string_view content, OsmFormat format, const std::string& name,
+                              const ImportOptions& options) {
+  ImportedCity imported;
+  imported.report.files.resize(1);
+  imported.report.files[0].file = name;
+  OsmRecords records =
+      read_osm(content, format, {.bounds = options.bounds, .limits = options.limits},
+               imported.report.files[0]);
+  imported.city = build_city(std::move(records), options, imported.report);
+  return imported;
+}
+
 }  // namespace cuscus::city
