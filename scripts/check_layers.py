@@ -51,6 +51,7 @@ ALLOWED |= {
     "orchestrator/init": {"common/posix", "common/ipc", "proto"},
     "orchestrator/node": {"common/posix", "common/ipc", "common/statistics", "proto",
                           "orchestrator/netlink"},
+    "orchestrator/fetch": set(),
     "orchestrator/results": PURE | {"proto", "common/posix", "orchestrator/plan"},
 }
 for component in ("world", "netsim", "uav-agent", "ground-station", "orchestrator"):

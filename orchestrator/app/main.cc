@@ -10,6 +10,7 @@
 
 #include "common/log/log.h"
 #include "common/scenario/scenario_error.h"
+#include "orchestrator/app/city_commands.h"
 #include "orchestrator/app/commands.h"
 #include "orchestrator/app/exit_code.h"
 #include "orchestrator/app/print.h"
@@ -75,6 +76,35 @@ void add_city_options(CLI::App& command, orchestrator::CityArguments& city) {
   command.add_flag("--json", city.json, "as JSON");
 }
 
+void add_city_generate(CLI::App& city, orchestrator::CityGenerateArguments& arguments) {
+  auto* const command =
+      city.add_subcommand("generate", "make a city up and write it as an OpenStreetMap file");
+  command->add_option("STYLE", arguments.style, "old-town or grid")->required();
+  command->add_option("--seed", arguments.seed, "another seed, another city")
+      ->capture_default_str();
+  command->add_option("--size", arguments.size, "side of the square, 200m ... 5km")
+      ->capture_default_str();
+  command->add_option("--origin", arguments.origin,
+                      "LATITUDE,LONGITUDE of its middle in degrees (old-town 44.5,11.35; grid "
+                      "40.75,-73.98)");
+  command->add_option("--out", arguments.out, "file to write, such as town.osm")->required();
+}
+
+void add_city_fetch(CLI::App& city, orchestrator::CityFetchArguments& arguments) {
+  auto* const command =
+      city.add_subcommand("fetch", "download a part of OpenStreetMap from an Overpass server");
+  command->add_option("--bbox", arguments.bounds, "WEST,SOUTH,EAST,NORTH in degrees")->required();
+  command
+      ->add_option("--server", arguments.server,
+                   "URL of the interpreter, such as https://overpass-api.de/api/interpreter")
+      ->required();
+  command->add_option("--out", arguments.out, "file to write, such as centre.osm")->required();
+  command->add_option("--timeout", arguments.timeout, "for the server's work")
+      ->capture_default_str();
+  command->add_option("--max-mb", arguments.largest_mb, "largest answer in megabytes")
+      ->capture_default_str();
+}
+
 /// Options and what to do with them; declared together so that they live as long as the parser.
 struct CommandLine {
   CLI::App app{"Flies a fleet of UAVs and their radio network together on one machine.", "cuscus"};
@@ -83,6 +113,8 @@ struct CommandLine {
   orchestrator::WhyArguments why;
   orchestrator::AirArguments air;
   orchestrator::CityArguments city;
+  orchestrator::CityGenerateArguments city_generate;
+  orchestrator::CityFetchArguments city_fetch;
   bool check_json{false};
   bool schema{false};
   bool ps_json{false};
@@ -111,6 +143,10 @@ struct CommandLine {
         air);
     add_city_options(*app.add_subcommand("city", "import a city: what is understood of a map"),
                      city);
+    auto* const city = app.add_subcommand("city", "maps of cities");
+    city->require_subcommand(1);
+    add_city_generate(*city, city_generate);
+    add_city_fetch(*city, city_fetch);
     app.add_subcommand("schema", "print the JSON schema of scenarios");
     auto* const ps_command = app.add_subcommand("ps", "list the runs of this machine");
     ps_command->add_flag("--json", ps_json, "as JSON, with every node");
@@ -168,6 +204,11 @@ struct CommandLine {
     }
     if (app.got_subcommand("city")) {
       return orchestrator::city_command(city);
+    }
+    if (app.got_subcommand("city")) {
+      return app.get_subcommand("city")->got_subcommand("generate")
+                 ? orchestrator::city_generate_command(city_generate)
+                 : orchestrator::city_fetch_command(city_fetch);
     }
     if (app.got_subcommand("schema")) {
       return orchestrator::schema_command();
