@@ -16,6 +16,9 @@
 namespace cuscus::city::generate {
 namespace {
 
+// The narrowest and the widest.
+constexpr std::array<double, 2> kAvenues_m{25.0, 30.0};
+constexpr std::array<double, 2> kStreets_m{15.0, 18.0};
 constexpr double kBackToBack = 0.6;  // of the lots that are deep enough
 constexpr double kDeepLot_m = 44.0;
 constexpr double kAlone = 0.3;  // of the lots
@@ -33,12 +36,13 @@ struct Roads {
   [[nodiscard]] std::size_t gaps() const { return at_m.size() - 1; }
 };
 
-Roads lay_roads(double size_m, double apart_m, std::array<double, 2> widths_m, Dice& dice) {
+/// The outermost ones lie within the size whatever their width.
+Roads lay_roads(double size_m, double apart_m, const std::array<double, 2>& widths_m, Dice& dice) {
   const long gaps = std::max(1L, std::lround(size_m / apart_m));
   Roads roads;
   for (long i = 0; i <= gaps; ++i) {
     const double part = static_cast<double>(i) / static_cast<double>(gaps);
-    roads.at_m.push_back(std::round((part - 0.5) * size_m * 1000.0) / 1000.0);
+    roads.at_m.push_back(std::round((part - 0.5) * (size_m - widths_m[1]) * 1000.0) / 1000.0);
     roads.width_m.push_back(dice.tenths(widths_m[0], widths_m[1]));
   }
   return roads;
@@ -77,8 +81,8 @@ class Grid {
     plan_.south_west_m = {-half_m, -half_m};
     plan_.north_east_m = {half_m, half_m};
     Dice dice{seed_, Purpose::kStreets};
-    avenues_ = lay_roads(parameters_.size_m, parameters_.avenues_apart_m, {25.0, 30.0}, dice);
-    streets_ = lay_roads(parameters_.size_m, parameters_.streets_apart_m, {15.0, 18.0}, dice);
+    avenues_ = lay_roads(parameters_.size_m, parameters_.avenues_apart_m, kAvenues_m, dice);
+    streets_ = lay_roads(parameters_.size_m, parameters_.streets_apart_m, kStreets_m, dice);
     name_roads();
     const std::size_t park_column = avenues_.gaps() / 2;
     const std::size_t park_row = streets_.gaps() / 2;
@@ -165,9 +169,6 @@ void Grid::plant_avenues() {
   for (std::size_t i = 0; i < avenues_.at_m.size(); ++i) {
     const double aside_m = avenues_.width_m[i] / 2.0 - kTreesFromKerb_m;
     for (const double x_m : {avenues_.at_m[i] - aside_m, avenues_.at_m[i] + aside_m}) {
-      if (std::abs(x_m) > parameters_.size_m / 2.0) {
-        continue;  // outside of the area
-      }
       for (std::size_t row = 0; row < streets_.gaps(); ++row) {
         plant_row({x_m, streets_.from(row) + kFromCrossing_m},
                   {x_m, streets_.to(row) - kFromCrossing_m}, kAvenueTreesApart_m, dice,

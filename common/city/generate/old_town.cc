@@ -15,7 +15,7 @@
 namespace cuscus::city::generate {
 namespace {
 
-constexpr double kWallStreet_m = 8.0;    // around the town
+constexpr double kWallStreet_m = 8.0;    // around the town, within its size
 constexpr double kLongStreet_m = 200.0;  // from here on, a street is one of the wider ones
 constexpr double kShortestWall_m = 1.0;
 constexpr double kSmallestHouse_m2 = 60.0;
@@ -39,7 +39,8 @@ class OldTown {
   OldTown(const OldTownParameters& parameters, std::uint64_t seed)
       : parameters_{parameters},
         seed_{seed},
-        cells_{irregular_cells({.size_m = parameters.size_m, .pitch_m = parameters.block_m}, seed)},
+        cells_{irregular_cells(
+            {.size_m = parameters.size_m - kWallStreet_m, .pitch_m = parameters.block_m}, seed)},
         web_{street_web(cells_)} {}
 
   Plan plan() {

@@ -153,7 +153,25 @@ void check_parts(const PlannedBuilding& building) {
   REQUIRE(top_m == building.height_m);
 }
 
+void check_inside(const Plan& plan) {
+  const auto inside = [&](const Eigen::Vector2d& p) {
+    return ((p - plan.south_west_m).array() >= 0.0).all() &&
+           ((plan.north_east_m - p).array() >= 0.0).all();
+  };
+  for (const PlannedStreet& street : plan.streets) {
+    for (const Eigen::Vector2d& p : street.axis_m) {
+      REQUIRE(inside(p));
+    }
+  }
+  for (const PlannedBuilding& building : plan.buildings) {
+    for (const Eigen::Vector2d& p : building.footprint.outer) {
+      REQUIRE(inside(p));
+    }
+  }
+}
+
 void check_plan(const Plan& plan) {
+  check_inside(plan);
   const std::vector<Shape> shapes = shapes_of(plan);
   check_valid(shapes);
   check_no_overlap(shapes);
