@@ -6,38 +6,18 @@
 #include <string_view>
 #include <vector>
 
+#include "common/city/export/map_labels.h"
 #include "common/city/import/import_city.h"
 #include "common/scenario/units.h"
+#include "orchestrator/app/city_commands.h"
 #include "orchestrator/app/city_report.h"
 #include "orchestrator/app/commands.h"
+#include "orchestrator/app/degrees.h"
 #include "orchestrator/app/exit_code.h"
 #include "orchestrator/app/print.h"
 
 namespace cuscus::orchestrator {
 namespace {
-
-/// W,S,E,N in degrees.
-city::GeoBox bounds_of(const std::string& text) {
-  std::array<double, 4> degrees{};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  bool good = true;
-  for (std::size_t i = 0; i < degrees.size() && good; ++i) {
-    const auto [next, error] = std::from_chars(at, end, degrees[i], std::chars_format::fixed);
-    const bool last = i + 1 == degrees.size();
-    good = error == std::errc{} && (last ? next == end : next != end && *next == ',');
-    at = last ? next : next + 1;
-  }
-  const auto [west, south, east, north] = degrees;
-  // Written so that NaN is refused too.
-  if (!good || !(west >= -180.0 && west < east && east <= 180.0) ||
-      !(south >= -90.0 && south < north && north <= 90.0)) {
-    throw UsageError{fmt::format(
-        "--bbox {}: allowed: WEST,SOUTH,EAST,NORTH in degrees, such as 11.33,44.49,11.35,44.50",
-        text)};
-  }
-  return {west, south, east, north};
-}
 
 double height_m(const std::string& whole, const std::string& text) {
   try {
@@ -68,7 +48,8 @@ city::HeightRange heights_of(const std::string& text) {
 city::ImportOptions options_of(const CityArguments& arguments) {
   city::ImportOptions options;
   if (arguments.bounds) {
-    options.bounds = bounds_of(*arguments.bounds);
+    const DegreeBox box = parse_degree_box("--bbox", *arguments.bounds);
+    options.bounds = city::GeoBox{box.west, box.south, box.east, box.north};
   }
   if (arguments.heights) {
     options.rule.heights = heights_of(*arguments.heights);
@@ -86,7 +67,16 @@ int city_command(const CityArguments& arguments) try {
   if (arguments.files.empty()) {
     throw UsageError{"city: a FILE is missing: .osm, .osm.gz, .osm.bz2 or .osm.pbf"};
   }
+  if (arguments.out) {
+    check_map_file(*arguments.out);
+  }
   const city::ImportedCity imported = city::import_city(arguments.files, options_of(arguments));
+  if (arguments.out) {
+    write_map(imported.city,
+              {.title = arguments.files.front().filename().string(),
+               .attribution = city::kOsmAttribution},
+              *arguments.out);
+  }
   if (arguments.json) {
     // Names may be of any bytes.
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;

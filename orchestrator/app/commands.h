@@ -78,6 +78,7 @@ struct CityArguments {
   std::optional<std::filesystem::path> terrain;  ///< ESRI ASCII grid in degrees.
   std::uint64_t seed{1};
   bool json{false};
+  std::optional<std::filesystem::path> out;  ///< A map: .json, .svg or .glb.
 };
 /// Imports a city and says what was understood of it, and what was not.
 int city_command(const CityArguments& arguments);

@@ -74,6 +74,7 @@ void add_city_options(CLI::App& command, orchestrator::CityArguments& city) {
                      "heights of the ground: ESRI ASCII grid in degrees");
   command.add_option("--seed", city.seed, "of the random heights")->capture_default_str();
   command.add_flag("--json", city.json, "as JSON");
+  command.add_option("--out", city.out, "draw it: a new file .json, .svg or .glb");
 }
 
 void add_city_generate(CLI::App& city, orchestrator::CityGenerateArguments& arguments) {
@@ -141,12 +142,8 @@ struct CommandLine {
         *app.add_subcommand(
             "air", "simulate the scenario's radio under synthetic traffic; needs no privileges"),
         air);
-    add_city_options(*app.add_subcommand("city", "import a city: what is understood of a map"),
-                     city);
-    auto* const city = app.add_subcommand("city", "maps of cities");
-    city->require_subcommand(1);
-    add_city_generate(*city, city_generate);
-    add_city_fetch(*city, city_fetch);
+    add_city_commands(
+        *app.add_subcommand("city", "maps of cities: what is understood of one, or a new one"));
     app.add_subcommand("schema", "print the JSON schema of scenarios");
     auto* const ps_command = app.add_subcommand("ps", "list the runs of this machine");
     ps_command->add_flag("--json", ps_json, "as JSON, with every node");
@@ -192,6 +189,22 @@ struct CommandLine {
     return fmt::format("there is no subcommand '{}'; there are: {}", argv[1], names);
   }
 
+  void add_city_commands(CLI::App& command) {
+    add_city_options(command, city);
+    add_city_generate(command, city_generate);
+    add_city_fetch(command, city_fetch);
+  }
+
+  int dispatch_city(const CLI::App& command) {
+    if (command.got_subcommand("generate")) {
+      return orchestrator::city_generate_command(city_generate);
+    }
+    if (command.got_subcommand("fetch")) {
+      return orchestrator::city_fetch_command(city_fetch);
+    }
+    return orchestrator::city_command(city);
+  }
+
   int dispatch() {
     if (app.got_subcommand("run")) {
       return orchestrator::run_command(run);
@@ -202,13 +215,8 @@ struct CommandLine {
     if (app.got_subcommand("air")) {
       return orchestrator::air_command(air);
     }
-    if (app.got_subcommand("city")) {
-      return orchestrator::city_command(city);
-    }
-    if (app.got_subcommand("city")) {
-      return app.get_subcommand("city")->got_subcommand("generate")
-                 ? orchestrator::city_generate_command(city_generate)
-                 : orchestrator::city_fetch_command(city_fetch);
+    if (const CLI::App* const command = app.get_subcommand("city"); command->parsed()) {
+      return dispatch_city(*command);
     }
     if (app.got_subcommand("schema")) {
       return orchestrator::schema_command();
