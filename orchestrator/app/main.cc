@@ -189,17 +189,17 @@ struct CommandLine {
     return fmt::format("there is no subcommand '{}'; there are: {}", argv[1], names);
   }
 
-  void add_city_commands(CLI::App& command) {
-    add_city_options(command, city);
-    add_city_generate(command, city_generate);
-    add_city_fetch(command, city_fetch);
+  void add_city_commands(CLI::App& parent) {
+    add_city_options(parent, city);
+    add_city_generate(parent, city_generate);
+    add_city_fetch(parent, city_fetch);
   }
 
-  int dispatch_city(const CLI::App& command) {
-    if (command.got_subcommand("generate")) {
+  int dispatch_city(const CLI::App& parsed) {
+    if (parsed.got_subcommand("generate")) {
       return orchestrator::city_generate_command(city_generate);
     }
-    if (command.got_subcommand("fetch")) {
+    if (parsed.got_subcommand("fetch")) {
       return orchestrator::city_fetch_command(city_fetch);
     }
     return orchestrator::city_command(city);
@@ -215,8 +215,8 @@ struct CommandLine {
     if (app.got_subcommand("air")) {
       return orchestrator::air_command(air);
     }
-    if (const CLI::App* const command = app.get_subcommand("city"); command->parsed()) {
-      return dispatch_city(*command);
+    if (app.got_subcommand("city")) {
+      return dispatch_city(*app.get_subcommand("city"));
     }
     if (app.got_subcommand("schema")) {
       return orchestrator::schema_command();

@@ -45,8 +45,11 @@ class OverpassExchange {
     tls.set_verify_mode(asio::ssl::verify_peer);
     beast::ssl_stream<beast::tcp_stream> stream{context_, tls};
     stream.set_verify_callback(asio::ssl::host_name_verification{server_.host});
-    // The name is for servers with several certificates.
-    if (SSL_set_tlsext_host_name(stream.native_handle(), server_.host.c_str()) != 1) {
+    // The name is for servers with several certificates. (SSL_set_tlsext_host_name() is a macro for
+    // this, with casts of C.)
+    std::string host = server_.host;
+    if (::SSL_ctrl(stream.native_handle(), SSL_CTRL_SET_TLSEXT_HOSTNAME, TLSEXT_NAMETYPE_host_name,
+                   host.data()) != 1) {
       throw FetchError{fmt::format("{}: TLS cannot ask for that name", name())};
     }
     connect(beast::get_lowest_layer(stream));
