@@ -2,7 +2,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 
 #include "common/city/geometry/city_geometry.h"
 #include "tests/unit/common/city/geometry/houses.h"
@@ -266,36 +265,6 @@ TEST_CASE("a city of which no geometry can be made is refused, with the body's n
   city = City{};
   city.terrain = Terrain{.columns = 2, .rows = 2, .height_m = {1.0F}};
   CHECK_THAT(refusal(city), Contains("terrain") && Contains("rows times columns"));
-}
-
-TEST_CASE("threads that ask at once get what one gets") {
-  const CityGeometry geometry{town_of_stars(3)};
-  const auto count = [&geometry](std::uint64_t seed) {
-    Draws draws{random::CounterStream{seed, 9}};
-    Crossings found;
-    std::uint32_t sum = 0;
-    for (int i = 0; i < 200; ++i) {
-      geometry.crossings(draws.place({0.0, 0.0, 0.0}, {300.0, 300.0, 40.0}),
-                         draws.place({0.0, 0.0, 0.0}, {300.0, 300.0, 40.0}), found);
-      for (const Crossing& crossing : found.buildings) {
-        sum += crossing.outer_walls;
-      }
-    }
-    return sum;
-  };
-  std::vector<std::uint32_t> at_once(4);
-  std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < at_once.size(); ++i) {
-    threads.emplace_back([&, i] { at_once[i] = count(i); });
-  }
-  for (std::thread& thread : threads) {
-    thread.join();
-  }
-
-  for (std::size_t i = 0; i < at_once.size(); ++i) {
-    CHECK(at_once[i] == count(i));
-    CHECK(at_once[i] > 100);
-  }
 }
 
 }  // namespace
