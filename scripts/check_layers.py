@@ -29,7 +29,9 @@ PURE = {"common/units", "common/random", "common/statistics", "common/geometry",
         "common/city", "common/city/geometry"}
 ALLOWED |= {
     "world/dynamics": PURE,
-    "world/sensors": PURE | {"world/dynamics"},
+    "world/surroundings": PURE,
+    "world/collision": PURE | {"world/surroundings", "world/dynamics"},
+    "world/sensors": PURE | {"world/surroundings", "world/dynamics"},
     "world/actuation": PURE | {"proto"},
     "netsim/makers": set(),
     "netsim/channel": PURE | {"netsim/makers"},

@@ -47,7 +47,14 @@ void FlairFleet::set_state(std::size_t vehicle, const RigidBodyState& state) {
   v.previous_position_m = v.position_m - settings_.step_s * v.velocity_mps;
   v.attitude = turned_over(state.q_WB);
   v.rates_radps = turned_over(state.w_WB_B_radps);
-  v.on_ground = state.p_WB_m.z() <= 0.0 && v.velocity_mps.isZero(0.0);
+  v.on_ground = settings_.ground && state.p_WB_m.z() <= 0.0 && v.velocity_mps.isZero(0.0);
+}
+
+void FlairFleet::rest(std::size_t vehicle) {
+  Vehicle& v = vehicles_[vehicle];
+  v.velocity_mps.setZero();
+  v.previous_position_m = v.position_m;
+  v.on_ground = true;
 }
 
 RigidBodyState FlairFleet::state(std::size_t vehicle) const {
@@ -92,9 +99,9 @@ void FlairFleet::step(Vehicle& v) const {
                                   air_force(p, v.velocity_mps) +
                                   Eigen::Vector3d{0.0, 0.0, p.mass_kg * settings_.gravity_mps2};
   Eigen::Vector3d next = h * h / p.mass_kg * force_N + 2.0 * v.position_m - v.previous_position_m;
-  v.on_ground = next.z() >= 0.0;
+  v.on_ground = settings_.ground ? next.z() >= 0.0 : v.on_ground && next.z() >= v.position_m.z();
   if (v.on_ground) {
-    next = {v.position_m.x(), v.position_m.y(), 0.0};
+    next = {v.position_m.x(), v.position_m.y(), settings_.ground ? 0.0 : v.position_m.z()};
     v.velocity_mps.setZero();
     v.previous_position_m = next;
   } else {

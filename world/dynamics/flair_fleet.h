@@ -34,6 +34,7 @@ class FlairFleet final : public Plant {
 
   [[nodiscard]] std::size_t size() const override { return vehicles_.size(); }
   void set_state(std::size_t vehicle, const RigidBodyState& state) override;
+  void rest(std::size_t vehicle) override;
   [[nodiscard]] RigidBodyState state(std::size_t vehicle) const override;
   void set_commands(std::size_t vehicle, const RotorCommands& commands) override;
   void step() override;

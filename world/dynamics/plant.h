@@ -20,6 +20,8 @@ struct RigidBodyState {
 struct PlantSettings {
   double step_s;
   double gravity_mps2;
+  /// Whether the plane z = 0 is the ground. Otherwise nothing carries a vehicle but rest().
+  bool ground{true};
 };
 
 /// Vehicles that fly by their rotor commands, in steps of one fixed length. Vehicles do not touch
@@ -32,8 +34,11 @@ class Plant {
 
   [[nodiscard]] virtual std::size_t size() const = 0;
 
-  /// Puts a vehicle somewhere; at z = 0 without speed it stands on the ground.
+  /// Puts a vehicle somewhere; at z = 0 without speed it stands on the ground, if that is there.
   virtual void set_state(std::size_t vehicle, const RigidBodyState& state) = 0;
+  /// Something carries the vehicle from now on, where it is: it stops, as on the ground, and stands
+  /// until it takes off.
+  virtual void rest(std::size_t vehicle) = 0;
   [[nodiscard]] virtual RigidBodyState state(std::size_t vehicle) const = 0;
 
   /// Holds until the next call. The commands must be finite: a plant trusts its caller.

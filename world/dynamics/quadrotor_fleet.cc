@@ -125,10 +125,14 @@ void QuadrotorFleet::set_state(std::size_t vehicle, const RigidBodyState& state)
   block.wx[lane] = state.w_WB_B_radps.x();
   block.wy[lane] = state.w_WB_B_radps.y();
   block.wz[lane] = state.w_WB_B_radps.z();
-  block.on_ground[lane] =
-      state.p_WB_m.z() <= 0.0 && state.v_WB_W_mps.isZero(0.0) && state.w_WB_B_radps.isZero(0.0)
-          ? 1.0
-          : 0.0;
+  block.on_ground[lane] = settings_.ground && state.p_WB_m.z() <= 0.0 &&
+                                  state.v_WB_W_mps.isZero(0.0) && state.w_WB_B_radps.isZero(0.0)
+                              ? 1.0
+                              : 0.0;
+}
+
+void QuadrotorFleet::rest(std::size_t vehicle) {
+  stand(blocks_[vehicle / kLanes], vehicle % kLanes);
 }
 
 RigidBodyState QuadrotorFleet::state(std::size_t vehicle) const {
@@ -156,9 +160,10 @@ void QuadrotorFleet::step() {
       block.on_ground[lane] = rests(block, lane) ? 1.0 : 0.0;
     }
     integrate(block);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    for (std::size_t lane = 0; settings_.ground && lane < kLanes; ++lane) {
       if (block.on_ground[lane] == 0.0 && block.pz[lane] <= 0.0) {
-        touch_ground(block, lane);
+        block.pz[lane] = 0.0;
+        stand(block, lane);
       }
     }
   }
@@ -202,13 +207,13 @@ void QuadrotorFleet::integrate(Block& b) const noexcept {
   }
 }
 
-void QuadrotorFleet::touch_ground(Block& block, std::size_t lane) noexcept {
+void QuadrotorFleet::stand(Block& block, std::size_t lane) noexcept {
   const Quaternion q{block.qw[lane], block.qx[lane], block.qy[lane], block.qz[lane]};
-  block.pz[lane] = 0.0;
   for (Lanes* const speed : {&block.vx, &block.vy, &block.vz, &block.wx, &block.wy, &block.wz}) {
     (*speed)[lane] = 0.0;
   }
-  if (up_axis(q).z > kTipOverCosine) {
+  const bool level = q.x == 0.0 && q.y == 0.0;
+  if (!level && up_axis(q).z > kTipOverCosine) {
     // The turn of q about the vertical alone; its length is above cos 22.5°.
     const double scale = 1.0 / std::sqrt(q.w * q.w + q.z * q.z);
     block.qw[lane] = q.w * scale;

@@ -36,6 +36,7 @@ class QuadrotorFleet final : public Plant {
 
   [[nodiscard]] std::size_t size() const override { return parameters_.size(); }
   void set_state(std::size_t vehicle, const RigidBodyState& state) override;
+  void rest(std::size_t vehicle) override;
   [[nodiscard]] RigidBodyState state(std::size_t vehicle) const override;
   void set_commands(std::size_t vehicle, const RotorCommands& commands) override;
   void step() override;
@@ -56,7 +57,7 @@ class QuadrotorFleet final : public Plant {
 
   [[nodiscard]] bool rests(const Block& block, std::size_t lane) const noexcept;
   void integrate(Block& block) const noexcept;
-  static void touch_ground(Block& block, std::size_t lane) noexcept;
+  static void stand(Block& block, std::size_t lane) noexcept;
 
   PlantSettings settings_;
   std::vector<MultirotorParameters> parameters_;
