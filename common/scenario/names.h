@@ -71,6 +71,10 @@ inline constexpr std::array kAddressResolutionNames{
 inline constexpr std::array kNeighbourSourceNames{
     Named<NeighbourSource>{"beacons", NeighbourSource::kBeacons},
     Named<NeighbourSource>{"motion-capture", NeighbourSource::kMotionCapture}};
+inline constexpr std::array kCollisionBehaviourNames{
+    Named<CollisionBehaviour>{"stop", CollisionBehaviour::kStop},
+    Named<CollisionBehaviour>{"bounce", CollisionBehaviour::kBounce},
+    Named<CollisionBehaviour>{"crash", CollisionBehaviour::kCrash}};
 inline constexpr std::array kOnExitNames{Named<OnExit>{"fail", OnExit::kFail},
                                          Named<OnExit>{"mark", OnExit::kMark},
                                          Named<OnExit>{"ignore", OnExit::kIgnore}};

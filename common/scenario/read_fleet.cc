@@ -30,6 +30,20 @@ bool is_group_name(const std::string& name) {
          });
 }
 
+/// From the end of an arm to the tips of a rotor of 8 inches, the size that goes with such arms.
+constexpr double kRotorRadius_m = 0.1;
+
+Collision read_collision(const json* value, const std::string& path, double arm_m,
+                         Problems& problems) {
+  Collision collision;
+  ObjectReader reader{value, path, problems};
+  collision.behaviour = reader.choice("behaviour", collision.behaviour, kCollisionBehaviourNames);
+  collision.restitution = reader.number("restitution", collision.restitution, {0.0, 1.0});
+  collision.radius_m = reader.quantity("radius", arm_m + kRotorRadius_m, {kLength, "1 cm", "20 m"});
+  reader.finish();
+  return collision;
+}
+
 Vehicle read_vehicle(const json* value, const std::string& path, Problems& problems) {
   ObjectReader reader{value, path, problems};
   const bool fixed = reader.choice_index("model", {"x4", "fixed"}) == 1;
@@ -58,6 +72,8 @@ Vehicle read_vehicle(const json* value, const std::string& path, Problems& probl
   drag_reader.finish();
   x4.motor_timeout = reader.duration("motor_timeout", x4.motor_timeout, "1 ms", "10 s");
   x4.faithful = reader.boolean("faithful", x4.faithful);
+  x4.collision =
+      read_collision(reader.child("collision"), reader.path_of("collision"), x4.arm_m, problems);
   reader.finish();
   return x4;
 }

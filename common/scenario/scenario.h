@@ -283,6 +283,15 @@ struct World {
   double motion_capture_noise_rad{0.001};
 };
 
+enum class CollisionBehaviour { kStop, kBounce, kCrash };
+
+/// What becomes of a vehicle that touches something.
+struct Collision {
+  CollisionBehaviour behaviour{CollisionBehaviour::kStop};
+  double restitution{0.3};  ///< Of kBounce: speed after over speed before.
+  double radius_m{0.3};     ///< Of the ball that stands on its position.
+};
+
 /// FL-AIR's quadrotor; defaults are the ones of its simulator_x4.xml.
 struct X4Vehicle {
   double mass_kg{1.2};
@@ -294,6 +303,7 @@ struct X4Vehicle {
   double drag_lateral_Nspm{0.4};
   Duration motor_timeout{std::chrono::milliseconds{100}};
   bool faithful{false};  ///< FL-AIR's own integrator and signs.
+  Collision collision;
 };
 
 // Of the same source: thrust = kX4ThrustFactor u^2, torque = kX4TorqueFactor u^2, with the motor's

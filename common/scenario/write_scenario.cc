@@ -288,7 +288,11 @@ Json json_of(const X4Vehicle& x4) {
            {{"vertical", format_quantity(x4.drag_vertical_Nspm, kDrag)},
             {"lateral", format_quantity(x4.drag_lateral_Nspm, kDrag)}}},
           {"motor_timeout", text(x4.motor_timeout)},
-          {"faithful", x4.faithful}};
+          {"faithful", x4.faithful},
+          {"collision",
+           {{"behaviour", name_of(kCollisionBehaviourNames, x4.collision.behaviour)},
+            {"restitution", x4.collision.restitution},
+            {"radius", format_quantity(x4.collision.radius_m, kLength)}}}};
 }
 
 Json json_of(const CircleLayout& circle) {

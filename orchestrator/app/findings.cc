@@ -87,6 +87,22 @@ void add_failures(const LiveRun& run, std::vector<std::string>& failures) {
   }
 }
 
+/// Of every vehicle, when the world has reported.
+void add_collisions(const Plan& plan, const LiveRun& run, RunOutcome& outcome) {
+  const auto* const report = report_of(run.world());
+  if (report == nullptr || !report->has_world()) {
+    return;
+  }
+  for (const proto::WorldNode& node : plan.world.nodes()) {
+    if (node.has_multirotor()) {
+      outcome.nodes.at(node.node()).collisions.emplace();
+    }
+  }
+  for (const proto::CollisionTally& tally : report->world().collisions()) {
+    outcome.nodes.at(tally.node()).collisions = tally;
+  }
+}
+
 }  // namespace
 
 std::int64_t suspended_ns() {
@@ -165,10 +181,12 @@ RunOutcome run_outcome(const Plan& plan, const LiveRun& run, const Sampler& samp
          .tap_dropped =
              node.index < tap_drops.size() ? std::optional{tap_drops[node.index]} : std::nullopt,
          .commands = node.role == NodeRole::kUav ? run.commands(node.index) : std::nullopt,
+         .collisions = {},
          .agent = {},
          .formation_error = sampler.formation_error(node.index),
          .programs = {}});
   }
+  add_collisions(plan, run, outcome);
   if (run.crew() == nullptr) {
     return outcome;
   }

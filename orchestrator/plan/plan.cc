@@ -75,6 +75,14 @@ proto::MultirotorParameters parameters_of(const scenario::X4Vehicle& x4) {
   return parameters;
 }
 
+proto::CollisionConfiguration collision_of(const scenario::Collision& from) {
+  proto::CollisionConfiguration collision;
+  collision.set_behaviour(scenario::name_of(scenario::kCollisionBehaviourNames, from.behaviour));
+  collision.set_restitution(from.restitution);
+  collision.set_radius_m(from.radius_m);
+  return collision;
+}
+
 proto::CircleMission mission_of(const scenario::CircleMission& circle) {
   proto::CircleMission mission;
   *mission.mutable_p_wc_centre_m() =
@@ -314,6 +322,7 @@ class Planner {
         node.set_yaw_start_rad(group.start.heading_rad);
         if (x4 != nullptr) {
           *node.mutable_multirotor() = parameters_of(*x4);
+          *node.mutable_collision() = collision_of(x4->collision);
         }
       }
     }

@@ -52,6 +52,15 @@ Json json_of(const proto::WorldReport& report) {
           {"cpu_s", report.cpu_s()}};
 }
 
+Json json_of(const proto::CollisionTally& tally) {
+  return {{"contacts", tally.buildings() + tally.ground() + tally.trees() + tally.vehicles()},
+          {"buildings", tally.buildings()},
+          {"ground", tally.ground()},
+          {"trees", tally.trees()},
+          {"vehicles", tally.vehicles()},
+          {"crashed", tally.crashed()}};
+}
+
 Json json_of(const proto::AgentReport& report) {
   return {{"final_state", report.final_state()},
           {"loops", report.loops()},

@@ -13,6 +13,7 @@ namespace cuscus::orchestrator {
 [[nodiscard]] nlohmann::ordered_json json_of(const proto::RadioReport& report);
 [[nodiscard]] nlohmann::ordered_json json_of(const proto::NodeServiceReport& report);
 [[nodiscard]] nlohmann::ordered_json json_of(const proto::WorldReport& report);
+[[nodiscard]] nlohmann::ordered_json json_of(const proto::CollisionTally& tally);
 [[nodiscard]] nlohmann::ordered_json json_of(const proto::AgentReport& report);
 [[nodiscard]] nlohmann::ordered_json json_of(const proto::GroundStationReport& report);
 [[nodiscard]] nlohmann::ordered_json json_of(const shm::RadioTally& tally);

@@ -44,6 +44,7 @@ Json node_json(const NodeOutcome& node) {
           {"emulator", node.emulator ? json_of(*node.emulator) : Json(nullptr)},
           {"tap_dropped", node.tap_dropped ? Json(*node.tap_dropped) : Json(nullptr)},
           {"commands", node.commands ? json_of(*node.commands) : Json(nullptr)},
+          {"collisions", node.collisions ? json_of(*node.collisions) : Json(nullptr)},
           {"agent", node.agent ? json_of(*node.agent) : Json(nullptr)},
           {"formation_error", error_json(node.formation_error)},
           {"programs", programs}};

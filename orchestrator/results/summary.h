@@ -49,6 +49,7 @@ struct NodeOutcome {
   std::optional<proto::NodeServiceReport> emulator;
   std::optional<std::uint64_t> tap_dropped;  ///< Frames that the kernel dropped on its TAP.
   std::optional<shm::CommandTally> commands;
+  std::optional<proto::CollisionTally> collisions;  ///< Of a vehicle.
   std::optional<proto::AgentReport> agent;
   std::optional<FormationErrorSummary> formation_error;
   std::vector<ProgramOutcome> programs;

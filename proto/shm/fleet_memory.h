@@ -26,6 +26,7 @@ struct NodeState {
 struct NodeFlag {
   static constexpr std::uint64_t kOnGround = 1U << 0;
   static constexpr std::uint64_t kMotorsRunning = 1U << 1;
+  static constexpr std::uint64_t kCrashed = 1U << 2;  ///< Its motors do not run any more.
 };
 
 /// What the world made of the actuator commands of a node, since the run began.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -18,7 +19,30 @@ void require(bool holds, const std::string& what) {
   }
 }
 
+/// How a configuration names what becomes of a vehicle that touches something.
+std::optional<CollisionBehaviour> behaviour_of(const std::string& name) {
+  if (name == "stop") {
+    return CollisionBehaviour::kStop;
+  }
+  if (name == "bounce") {
+    return CollisionBehaviour::kBounce;
+  }
+  if (name == "crash") {
+    return CollisionBehaviour::kCrash;
+  }
+  return std::nullopt;
+}
+
 bool is_amount(double value) { return std::isfinite(value) && value >= 0.0; }
+
+void check_collision(const proto::CollisionConfiguration& collision, const std::string& name) {
+  require(behaviour_of(collision.behaviour()).has_value(), name + "collision.behaviour is '" +
+                                                               collision.behaviour() +
+                                                               "', must be stop, bounce or crash");
+  require(is_amount(collision.restitution()) && collision.restitution() <= 1.0,
+          name + "collision.restitution must be 0 ... 1");
+  require(is_amount(collision.radius_m()), name + "collision.radius_m must be 0 or more");
+}
 
 void check_node(const proto::WorldNode& node) {
   const std::string name = "node " + std::to_string(node.node()) + " '" + node.name() + "': ";
@@ -31,6 +55,9 @@ void check_node(const proto::WorldNode& node) {
     return;
   }
   require(node.multirotor().motor_timeout_ns() > 0, name + "motor_timeout_ns must be above 0");
+  if (node.has_collision()) {
+    check_collision(node.collision(), name);
+  }
   try {
     check_parameters(parameters_of(node.multirotor()));
   } catch (const std::invalid_argument& error) {
@@ -85,6 +112,18 @@ MultirotorParameters parameters_of(const proto::MultirotorParameters& message) {
           .inertia_pitch_kgm2 = message.inertia_pitch_kgm2(),
           .inertia_yaw_kgm2 = message.inertia_yaw_kgm2(),
           .motor_speed_per_command = message.motor_speed_per_command()};
+}
+
+CollisionBody collision_body_of(const proto::WorldNode& node) {
+  CollisionBody body{.mass_kg = node.multirotor().mass_kg()};
+  if (node.has_collision()) {
+    body.radius_m = node.collision().radius_m();
+    body.behaviour = behaviour_of(node.collision().behaviour()).value_or(CollisionBehaviour::kStop);
+    body.restitution = node.collision().restitution();
+  }
+  body.loses_all_speed =
+      node.multirotor().faithful() && body.behaviour == CollisionBehaviour::kStop;
+  return body;
 }
 
 }  // namespace cuscus::world

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "proto/configuration.pb.h"
+#include "world/collision/collision_body.h"
 #include "world/dynamics/multirotor_parameters.h"
 
 namespace cuscus::world {
@@ -15,5 +16,8 @@ void check_configuration(const proto::WorldConfiguration& configuration);
 [[nodiscard]] std::uint32_t slot_count(const proto::WorldConfiguration& configuration);
 
 [[nodiscard]] MultirotorParameters parameters_of(const proto::MultirotorParameters& message);
+
+/// What of a vehicle hits and is hit; without a word about it a point, which meets no others.
+[[nodiscard]] CollisionBody collision_body_of(const proto::WorldNode& node);
 
 }  // namespace cuscus::world

@@ -47,7 +47,8 @@ std::uint64_t events(const shm::CommandTally& tally) {
 
 }  // namespace
 
-FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration, WorldMemory memory)
+FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration, WorldMemory memory,
+                                 const city::CityGeometry* city)
     : step_ns_{checked(configuration).step_ns()},
       memory_{std::move(memory)},
       slots_{slot_count(configuration)},
@@ -61,7 +62,9 @@ FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration,
               "motion-capture memory"),
         slots_);
   }
-  add_vehicles(configuration);
+  std::vector<FleetCollisions::Member> members;
+  add_vehicles(configuration, members);
+  collisions_.emplace(std::move(members), Surroundings{city});
   for (const proto::WorldNode& node : configuration.nodes()) {
     if (!node.has_multirotor()) {
       const RigidBodyState start = start_of(node);
@@ -76,16 +79,18 @@ FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration,
     }
   }
   for (const Vehicle& vehicle : vehicles_) {
-    publish_state(vehicle, vehicle.plant->state(vehicle.index));
+    publish_state(vehicle);
     fleet_.publish(vehicle.node, vehicle.gate.tally());
   }
   publish_fixed_nodes();
   fleet_.publish_progress(0, 0, 0);
 }
 
-void FleetSimulation::add_vehicles(const proto::WorldConfiguration& configuration) {
+void FleetSimulation::add_vehicles(const proto::WorldConfiguration& configuration,
+                                   std::vector<FleetCollisions::Member>& members) {
   const PlantSettings settings{.step_s = to_seconds(step_length()),
-                               .gravity_mps2 = configuration.gravity_mps2()};
+                               .gravity_mps2 = configuration.gravity_mps2(),
+                               .ground = false};  // it is collisions_' matter
   for (const bool faithful : {false, true}) {
     std::vector<MultirotorParameters> parameters;
     std::vector<const proto::WorldNode*> nodes;
@@ -108,11 +113,17 @@ void FleetSimulation::add_vehicles(const proto::WorldConfiguration& configuratio
       const proto::WorldNode& node = *nodes[i];
       const WorldMemory::Vehicle& memory = memory_.vehicles.at(node.node());
       plant.set_state(i, start_of(node));
+      members.push_back({.node = node.node(),
+                         .name = node.name(),
+                         .plant = &plant,
+                         .index = i,
+                         .body = collision_body_of(node)});
       vehicles_.push_back(
           {.node = node.node(),
            .name = node.name(),
            .plant = &plant,
            .index = i,
+           .member = members.size() - 1,
            .gate = CommandGate{SimClock::duration{node.multirotor().motor_timeout_ns()}},
            .sensors = shm::SensorMemoryWriter{sized(
                memory.sensors, shm::SensorMemoryWriter::byte_size(), "sensor memory")},
@@ -150,8 +161,9 @@ void FleetSimulation::step() {
   for (const auto& plant : plants_) {
     plant->step();
   }
+  collisions_->step(time());
   for (const Vehicle& vehicle : vehicles_) {
-    publish_state(vehicle, vehicle.plant->state(vehicle.index));
+    publish_state(vehicle);
   }
   publish_readings();
   for (Vehicle& vehicle : vehicles_) {
@@ -170,10 +182,12 @@ void FleetSimulation::publish_progress(std::uint64_t overruns) noexcept {
   fleet_.publish_progress(steps_, overruns, to_ns(time()));
 }
 
-void FleetSimulation::publish_state(const Vehicle& vehicle, const RigidBodyState& body) noexcept {
+void FleetSimulation::publish_state(const Vehicle& vehicle) noexcept {
+  const RigidBodyState& body = collisions_->state(vehicle.member);
+  const bool crashed = collisions_->has_crashed(vehicle.member);
   const auto& motors = vehicle.gate.motors();
-  const bool running =
-      std::any_of(motors.begin(), motors.begin() + kRotors, [](double u) { return u > 0.0; });
+  const bool running = !crashed && std::any_of(motors.begin(), motors.begin() + kRotors,
+                                               [](double u) { return u > 0.0; });
   fleet_.publish(
       vehicle.node,
       shm::NodeState{
@@ -183,7 +197,8 @@ void FleetSimulation::publish_state(const Vehicle& vehicle, const RigidBodyState
           .q_WB = array_of(body.q_WB),
           .w_WB_B_radps = array_of(body.w_WB_B_radps),
           .flags = (vehicle.plant->on_ground(vehicle.index) ? shm::NodeFlag::kOnGround : 0) |
-                   (running ? shm::NodeFlag::kMotorsRunning : 0)});
+                   (running ? shm::NodeFlag::kMotorsRunning : 0) |
+                   (crashed ? shm::NodeFlag::kCrashed : 0)});
 }
 
 void FleetSimulation::publish_fixed_nodes() noexcept {
@@ -200,7 +215,7 @@ void FleetSimulation::publish_readings() {
     return;
   }
   for (Vehicle& vehicle : vehicles_) {
-    const RigidBodyState body = vehicle.plant->state(vehicle.index);
+    const RigidBodyState& body = collisions_->state(vehicle.member);
     if (imu) {
       publish_imu(vehicle, body, *imu);
     }
@@ -247,7 +262,9 @@ void FleetSimulation::take_up_commands(Vehicle& vehicle) {
     vehicle.gate.offer(time(), vehicle.actuators.command());
   }
   vehicle.gate.expire(time());
-  if (vehicle.gate.tally().accepted != were_accepted || vehicle.gate.driven() != was_driven) {
+  const bool changed =
+      vehicle.gate.tally().accepted != were_accepted || vehicle.gate.driven() != was_driven;
+  if (changed && !collisions_->has_crashed(vehicle.member)) {
     RotorCommands commands{};
     std::copy_n(vehicle.gate.motors().begin(), kRotors, commands.begin());
     vehicle.plant->set_commands(vehicle.index, commands);

@@ -7,12 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "common/city/geometry/city_geometry.h"
 #include "common/units/sim_time.h"
 #include "proto/configuration.pb.h"
+#include "proto/report.pb.h"
 #include "proto/shm/fleet_memory.h"
 #include "proto/shm/motion_capture_memory.h"
 #include "proto/shm/vehicle_memory.h"
 #include "world/actuation/command_gate.h"
+#include "world/app/fleet_collisions.h"
 #include "world/app/world_memory.h"
 #include "world/dynamics/plant.h"
 #include "world/sensors/imu.h"
@@ -25,9 +28,12 @@ namespace cuscus::world {
 class FleetSimulation {
  public:
   /// Lays out fleet, sensor and motion-capture memory and publishes every node where it starts:
-  /// vehicles with stopped motors, on the ground if they start at z = 0.
-  /// @throws std::invalid_argument when `configuration` or the size of a memory is wrong.
-  FleetSimulation(const proto::WorldConfiguration& configuration, WorldMemory memory);
+  /// vehicles with stopped motors, standing if they start on something. `city`, which must outlive
+  /// this, is what they fly in; null: the bare ground z = 0.
+  /// @throws std::invalid_argument when `configuration` or the size of a memory is wrong, or a
+  /// vehicle would start in something.
+  FleetSimulation(const proto::WorldConfiguration& configuration, WorldMemory memory,
+                  const city::CityGeometry* city = nullptr);
 
   /// Publishes the first sensor readings, at SimTime 0, and looks at the commands for the first
   /// time.
@@ -55,13 +61,16 @@ class FleetSimulation {
   };
   /// What was made of each vehicle's commands so far.
   [[nodiscard]] std::vector<NodeTally> tallies() const;
+  /// First contacts of the latest step, and the counts of all so far.
+  [[nodiscard]] const FleetCollisions& collisions() const { return *collisions_; }
 
  private:
   struct Vehicle {
     std::uint32_t node;
     std::string name;
     Plant* plant;
-    std::size_t index;  // in the plant
+    std::size_t index;   // in the plant
+    std::size_t member;  // of collisions_
     CommandGate gate;
     shm::SensorMemoryWriter sensors;
     shm::ActuatorMemoryReader actuators;
@@ -82,8 +91,9 @@ class FleetSimulation {
     [[nodiscard]] std::optional<std::uint64_t> due(std::int64_t now_ns);
   };
 
-  void add_vehicles(const proto::WorldConfiguration& configuration);
-  void publish_state(const Vehicle& vehicle, const RigidBodyState& body) noexcept;
+  void add_vehicles(const proto::WorldConfiguration& configuration,
+                    std::vector<FleetCollisions::Member>& members);
+  void publish_state(const Vehicle& vehicle) noexcept;
   void publish_fixed_nodes() noexcept;
   void publish_motion_capture(Vehicle& vehicle, const RigidBodyState& body, std::uint64_t reading);
   void publish_imu(Vehicle& vehicle, const RigidBodyState& body, std::uint64_t reading);
@@ -98,6 +108,7 @@ class FleetSimulation {
   std::optional<shm::MotionCaptureMemoryWriter> fleet_motion_capture_;
   std::vector<std::unique_ptr<Plant>> plants_;
   std::vector<Vehicle> vehicles_;
+  std::optional<FleetCollisions> collisions_;  // after the plants, which it moves
   std::vector<FixedNode> fixed_nodes_;
   Schedule imu_schedule_;
   Schedule motion_capture_schedule_;

@@ -73,6 +73,15 @@ void log_tallies(const FleetSimulation& simulation) {
   }
 }
 
+void log_first_contacts(const FleetSimulation& simulation) {
+  for (const auto& contact : simulation.collisions().first_contacts()) {
+    const Eigen::Vector3d& p_m = contact.p_WB_m;
+    spdlog::warn("{} hit {} at ({:.2f}, {:.2f}, {:.2f}) m with {:.2f} m/s{}", contact.name,
+                 contact.what, p_m.x(), p_m.y(), p_m.z(), contact.speed_mps,
+                 contact.crash ? " and crashed" : "");
+  }
+}
+
 }  // namespace
 
 proto::WorldReport run_steps(FleetSimulation& simulation, ipc::ChildSession& session,
@@ -88,6 +97,7 @@ proto::WorldReport run_steps(FleetSimulation& simulation, ipc::ChildSession& ses
     *report.mutable_step_lateness() = ipc::summary_of(lateness);
     report.set_scheduler(host.scheduler());
     report.set_cpu_s(posix::process_cpu_s());
+    simulation.collisions().report(report);
     return report;
   };
 
@@ -103,6 +113,7 @@ proto::WorldReport run_steps(FleetSimulation& simulation, ipc::ChildSession& ses
       lateness.add(now_ns - due_ns);
       simulation.step();
       now_ns = host.now_ns();
+      log_first_contacts(simulation);
       overruns += now_ns > due_ns + step_ns ? 1 : 0;
       simulation.publish_progress(overruns);
     }

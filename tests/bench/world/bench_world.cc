@@ -1,5 +1,6 @@
 // Prints what a vehicle's step costs, for fleets of 10, 100 and 1000 X4 in flight: the plants
-// alone, and the whole of the world's work with its shared memories.
+// alone, and the whole of the world's work with its shared memories, over the bare ground and over a
+// city in which all can collide.
 
 #include <chrono>
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "tests/unit/world/app/run_of_world.h"
+#include "tests/unit/world/blocks.h"
 #include "world/app/fleet_simulation.h"
 #include "world/dynamics/flair_fleet.h"
 #include "world/dynamics/quadrotor_fleet.h"
@@ -46,19 +48,36 @@ void measure_plant(const char* name, std::uint32_t vehicles) {
   measure(name, vehicles, [&] { fleet.step(); });
 }
 
-void measure_world(std::uint32_t vehicles) {
+/// 1 600 blocks of 12 m, between streets of 5 m.
+city::CityGeometry blocks() {
+  std::vector<Block> blocks;
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < 40; ++column) {
+      const Eigen::Vector3d low{15.0 * column, 15.0 * row, 0.0};
+      blocks.push_back({.low_m = low, .high_m = low + Eigen::Vector3d{10.0, 10.0, 12.0}});
+    }
+  }
+  return city::CityGeometry{city_of(blocks)};
+}
+
+/// Hovering, 10 m apart; in a city 50 m above the ground.
+void measure_world(const char* name, std::uint32_t vehicles, const city::CityGeometry* city) {
   std::vector<std::uint32_t> nodes(vehicles);
   std::iota(nodes.begin(), nodes.end(), 0U);
   RunOfWorld memories{vehicles, nodes};
   proto::WorldConfiguration configuration = fleet_configuration(vehicles);
   for (auto& node : *configuration.mutable_nodes()) {
-    node.mutable_p_wb_start_m()->set_z(1e6);
+    node.mutable_p_wb_start_m()->set_z(city == nullptr ? 1e6 : 50.0);
+    if (city != nullptr) {
+      node.mutable_collision()->set_behaviour("stop");
+      node.mutable_collision()->set_radius_m(0.3);
+    }
   }
-  FleetSimulation simulation{configuration, memories.map()};
+  FleetSimulation simulation{configuration, memories.map(), city};
   simulation.begin();
   std::uint64_t step = 0;
   const double u = hover_command(flair_x4(), 9.81);
-  measure("world, memories, commands", vehicles, [&] {
+  measure(name, vehicles, [&] {
     if (++step % 5 == 0) {  // agents at 200 Hz
       for (const std::uint32_t node : nodes) {
         memories.command(node, step, {u, u, u, u});
@@ -73,9 +92,11 @@ void measure_world(std::uint32_t vehicles) {
 
 int main() {
   using namespace cuscus::world;
+  const cuscus::city::CityGeometry city = blocks();
   for (const std::uint32_t vehicles : {10U, 100U, 1000U}) {
     measure_plant<QuadrotorFleet>("corrected plant", vehicles);
     measure_plant<FlairFleet>("faithful plant", vehicles);
-    measure_world(vehicles);
+    measure_world("world, memories, commands", vehicles, nullptr);
+    measure_world("the same in a city", vehicles, &city);
   }
 }

@@ -56,7 +56,11 @@ TEST_CASE("Each component of the default scenario is told all that it needs") {
   CHECK(world.nodes(0).multirotor().mass_kg() == 1.2);
   CHECK(world.nodes(0).multirotor().motor_speed_per_command() == 86.0);
   CHECK(world.nodes(0).multirotor().source() == "FL-AIR, simulator_x4.xml");
+  CHECK(world.nodes(0).collision().behaviour() == "stop");
+  CHECK(world.nodes(0).collision().restitution() == 0.3);
+  CHECK(world.nodes(0).collision().radius_m() == Approx(0.3));
   CHECK_FALSE(world.nodes(10).has_multirotor());
+  CHECK_FALSE(world.nodes(10).has_collision());
   CHECK(world.nodes(10).p_wb_start_m().z() == 1.0);
 
   const proto::RadioConfiguration& radio = plan.radio;

@@ -161,6 +161,8 @@ const std::vector<BadInput> kTable{
     {R"({"fleet": [{"mission": {"type": "circle", "radius": "20 m", "speed": "6 m/s"}}]})", "/fleet/0/mission/speed", "\"6 m/s\" takes more than the 15 deg of tilt that the autopilot gives, on this radius and with this drag; allowed: up to 5.9 m/s", false},
     {R"({"fleet": [{"vehicle": {"model": "x4", "drag": {"lateral": "0 N s/m"}}, "mission": {"type": "circle", "radius": "50 cm"}}]})", "/fleet/0/mission/speed", "allowed: up to 1.14 m/s", false},
     {R"({"fleet": [{"control_period": "100 ms"}]})", "/fleet/0/control_period", "\"100 ms\" lets the motors stop between two commands; allowed: less than motor_timeout, here 100 ms", false},
+    {R"({"fleet": [{"vehicle": {"model": "x4", "collision": {"behaviour": "explode"}}}]})", "/fleet/0/vehicle/collision/behaviour", "\"explode\" is not known; allowed: stop, bounce, crash", true},
+    {R"({"fleet": [{"vehicle": {"model": "x4", "collision": {"restitution": 1.5}}}]})", "/fleet/0/vehicle/collision/restitution", "1.5 is out of range; allowed: a number 0.0 ... 1.0", true},
     {R"({"fleet": [{"vehicle": {"model": "x4", "motor_timeout": "2 ms"}}]})", "/fleet/0/control_period", "\"5 ms\" lets the motors stop between two commands; allowed: less than motor_timeout, here 2 ms", false},
     {R"({"fleet": [{"neighbours": {"source": "telepathy"}}]})", "/fleet/0/neighbours/source", "allowed: beacons, motion-capture", true},
     {R"({"fleet": [{"neighbours": {"beacon_period": "2 s", "timeout": "1 s"}}]})", "/fleet/0/neighbours/timeout", "is shorter than beacon_period; allowed: 2 s ... 60 s", false},

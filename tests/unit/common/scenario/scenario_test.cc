@@ -89,7 +89,8 @@ TEST_CASE("The scenario written out in full is the same scenario") {
       "fleet": [
         {"name": "a", "count": 3, "start": {"layout": "line", "direction": "33 deg",
          "centre": ["-7.25 m", "1 km", "0 m"], "heading": "-90 deg"},
-         "vehicle": {"model": "x4", "mass": "1500 g", "faithful": true},
+         "vehicle": {"model": "x4", "mass": "1500 g", "faithful": true,
+                     "collision": {"behaviour": "bounce", "restitution": 0.75, "radius": "45 cm"}},
          "mission": {"type": "circle", "centre": ["-7.25 m", "1 km"], "speed": "7 km/h"},
          "neighbours": {"source": "motion-capture", "beacon_period": "1 s"},
          "agent": ["./fly", "{index}"]},

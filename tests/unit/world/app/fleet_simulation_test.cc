@@ -222,6 +222,16 @@ TEST_CASE("a configuration that cannot be is refused by name") {
     configuration.mutable_nodes(0)->mutable_multirotor()->set_motor_timeout_ns(0);
     CHECK_THAT(refusal(), Catch::Contains("motor_timeout_ns"));
   }
+  SECTION("a behaviour that is none") {
+    configuration.mutable_nodes(1)->mutable_collision()->set_behaviour("melt");
+    CHECK_THAT(refusal(), Catch::Contains("'uav1'") && Catch::Contains("'melt'") &&
+                              Catch::Contains("stop, bounce or crash"));
+  }
+  SECTION("more speed after a bounce than before") {
+    configuration.mutable_nodes(1)->mutable_collision()->set_behaviour("bounce");
+    configuration.mutable_nodes(1)->mutable_collision()->set_restitution(1.1);
+    CHECK_THAT(refusal(), Catch::Contains("restitution"));
+  }
   SECTION("sensors faster than the step") {
     configuration.set_imu_period_ns(10);
     CHECK_THAT(refusal(), Catch::Contains("imu_period_ns"));
