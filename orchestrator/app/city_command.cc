@@ -1,12 +1,9 @@
-#include <array>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "common/city/export/map_labels.h"
 #include "common/city/import/import_city.h"
 #include "common/scenario/units.h"
 #include "orchestrator/app/city_commands.h"
@@ -71,18 +68,15 @@ int city_command(const CityArguments& arguments) try {
     check_map_file(*arguments.out);
   }
   const city::ImportedCity imported = city::import_city(arguments.files, options_of(arguments));
-  if (arguments.out) {
-    write_map(imported.city,
-              {.title = arguments.files.front().filename().string(),
-               .attribution = city::kOsmAttribution},
-              *arguments.out);
-  }
   if (arguments.json) {
     // Names may be of any bytes.
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
     print(stdout, "{}\n", city_json(imported).dump(2, ' ', false, kReplace));
   } else {
     print(stdout, "{}", city_text(imported));
+  }
+  if (arguments.out) {
+    write_map(imported.city, labels_of(arguments.files), *arguments.out);
   }
   return kExitDone;
 } catch (const city::CityFileError& error) {

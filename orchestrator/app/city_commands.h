@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/city/city.h"
 #include "common/city/export/map_labels.h"
@@ -31,6 +32,10 @@ struct CityFetchArguments {
 };
 /// Downloads an extract of OpenStreetMap from an Overpass server.
 int city_fetch_command(const CityFetchArguments& arguments);
+
+/// Title and attribution for a map made of these files: OpenStreetMap's, unless all of them are
+/// made up by `cuscus city generate`.
+[[nodiscard]] city::MapLabels labels_of(const std::vector<std::filesystem::path>& files);
 
 /// Refuses, as wrong usage, a name that no map can be written to: an ending that is none of a
 /// map's, a file that exists.
