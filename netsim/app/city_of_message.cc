@@ -1,6 +1,5 @@
 #include "netsim/app/city_of_message.h"
 
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -24,13 +23,7 @@ WallLosses walls_of(const ChannelParameters& channel) {
 
 void put_city(std::span<const std::byte> message, ChannelParameters& channel) {
   const WallLosses walls = walls_of(channel);
-  proto::CityModel model;
-  if (message.size() > std::numeric_limits<int>::max() ||
-      !model.ParseFromArray(message.data(), static_cast<int>(message.size()))) {
-    throw std::invalid_argument{"a city of " + std::to_string(message.size()) +
-                                " B is no message of cuscus"};
-  }
-  const city::City city = city::from_message(model);
+  const city::City city = city::from_bytes(message);
   channel.city =
       std::make_shared<CityObstacles>(city, std::make_shared<city::CityGeometry>(city), walls);
 }

@@ -72,6 +72,9 @@ void LiveRun::start_world() {
     given.push_back({Descriptors::KIND_SENSOR_MEMORY, node, memories_.sensors(node)});
     given.push_back({Descriptors::KIND_ACTUATOR_MEMORY, node, memories_.actuators(node)});
   }
+  if (settings_.city) {
+    given.push_back({Descriptors::KIND_CITY, 0, settings_.city.get()});
+  }
   proto::Configure configure;
   *configure.mutable_world() = plan_.world;
   world_->component().configure(given, configure);

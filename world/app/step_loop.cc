@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
+#include "common/city/geometry/city_geometry.h"
+#include "common/city/transfer/city_message.h"
 #include "common/ipc/duration_summary.h"
 #include "common/log/log.h"
 #include "common/posix/resource_usage.h"
+#include "common/posix/shared_memory.h"
 #include "common/statistics/log2_histogram.h"
 #include "world/app/world_memory.h"
 
@@ -123,13 +127,28 @@ proto::WorldReport run_steps(FleetSimulation& simulation, ipc::ChildSession& ses
   return report_so_far();
 }
 
+namespace {
+
+/// What the fleet flies in; null: the bare ground.
+std::unique_ptr<const city::CityGeometry> take_city(ipc::ChildSession& session) {
+  const auto memory = session.take_if_given(proto::Descriptors::KIND_CITY);
+  if (!memory) {
+    return nullptr;
+  }
+  const auto mapping = posix::MemoryMapping::read_only(*memory);
+  return std::make_unique<city::CityGeometry>(city::from_bytes(mapping.bytes()));
+}
+
+}  // namespace
+
 void run_world(ipc::ChildSession& session, StepHost& host) {
   const proto::Configure configure = session.await_configuration();
   if (!configure.has_world()) {
     throw std::invalid_argument{"Configure holds no world configuration"};
   }
   const proto::WorldConfiguration& configuration = configure.world();
-  FleetSimulation simulation{configuration, map_memory(session, configuration)};
+  const auto city = take_city(session);
+  FleetSimulation simulation{configuration, map_memory(session, configuration), city.get()};
   host.prepare(configuration.realtime_priority());
   session.ready();
   spdlog::info("ready: {} nodes, {} of them vehicles, step {} us, {}", configuration.nodes_size(),

@@ -1,6 +1,8 @@
 #include "common/city/transfer/city_message.h"
 
+#include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace cuscus::city {
 namespace {
@@ -166,6 +168,14 @@ City from_message(const proto::CityModel& message) {
     city.terrain = terrain_of(message.terrain());
   }
   return city;
+}
+
+City from_bytes(std::span<const std::byte> message) {
+  proto::CityModel model;
+  require(message.size() <= std::numeric_limits<int>::max() &&
+              model.ParseFromArray(message.data(), static_cast<int>(message.size())),
+          "these bytes are none");
+  return from_message(model);
 }
 
 }  // namespace cuscus::city

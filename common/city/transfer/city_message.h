@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include "common/city/city.h"
 #include "proto/city.pb.h"
 
@@ -15,5 +18,7 @@ inline constexpr const char* kCityFile = "city.pb";
 /// @throws std::invalid_argument naming what is wrong in a message that to_message() cannot have
 /// made.
 [[nodiscard]] City from_message(const proto::CityModel& message);
+/// The same of its bytes.
+[[nodiscard]] City from_bytes(std::span<const std::byte> message);
 
 }  // namespace cuscus::city

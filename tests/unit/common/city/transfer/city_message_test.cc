@@ -1,7 +1,9 @@
 #include "common/city/transfer/city_message.h"
 
 #include <catch2/catch.hpp>
+#include <span>
 #include <stdexcept>
+#include <string>
 
 namespace cuscus::city {
 namespace {
@@ -37,10 +39,9 @@ void check_equal(const Footprint& a, const Footprint& b) {
 
 TEST_CASE("A city arrives as it was sent") {
   const City sent = full_city();
-  proto::CityModel message;
-  REQUIRE(message.ParseFromString(to_message(sent).SerializeAsString()));
+  const std::string bytes = to_message(sent).SerializeAsString();
 
-  const City got = from_message(message);
+  const City got = from_bytes(std::as_bytes(std::span{bytes}));
 
   CHECK(got.origin.latitude_deg == sent.origin.latitude_deg);
   CHECK(got.origin.longitude_deg == sent.origin.longitude_deg);
@@ -80,6 +81,12 @@ TEST_CASE("A city arrives as it was sent") {
   CHECK(got.terrain->columns == 2);
   CHECK(got.terrain->rows == 1);
   CHECK(got.terrain->height_m == sent.terrain->height_m);
+}
+
+TEST_CASE("Bytes that are no message are refused") {
+  const std::string bytes = to_message(full_city()).SerializeAsString();
+  CHECK_THROWS_AS(from_bytes(std::as_bytes(std::span{bytes}.first(bytes.size() - 1))),
+                  std::invalid_argument);
 }
 
 TEST_CASE("A message that nobody sends is refused") {
