@@ -17,6 +17,8 @@ struct Box {
 class BoxTree final {
  public:
   explicit BoxTree(const std::vector<Box>& boxes);
+  BoxTree(const BoxTree&) = delete;
+  BoxTree& operator=(const BoxTree&) = delete;
   BoxTree(BoxTree&&) noexcept;
   BoxTree& operator=(BoxTree&&) noexcept;
   ~BoxTree();

@@ -115,6 +115,8 @@ class CityGeometry final {
  public:
   /// @throws std::invalid_argument naming the body, what is wrong with it and what is allowed.
   explicit CityGeometry(const City& city);
+  CityGeometry(const CityGeometry&) = delete;
+  CityGeometry& operator=(const CityGeometry&) = delete;
   CityGeometry(CityGeometry&&) noexcept;
   CityGeometry& operator=(CityGeometry&&) noexcept;
   ~CityGeometry();
