@@ -75,6 +75,13 @@ inline constexpr std::array kCollisionBehaviourNames{
     Named<CollisionBehaviour>{"stop", CollisionBehaviour::kStop},
     Named<CollisionBehaviour>{"bounce", CollisionBehaviour::kBounce},
     Named<CollisionBehaviour>{"crash", CollisionBehaviour::kCrash}};
+inline constexpr std::array kSensorDirectionNames{
+    Named<SensorDirection>{"down", SensorDirection::kDown},
+    Named<SensorDirection>{"up", SensorDirection::kUp},
+    Named<SensorDirection>{"forward", SensorDirection::kForward},
+    Named<SensorDirection>{"backward", SensorDirection::kBackward},
+    Named<SensorDirection>{"left", SensorDirection::kLeft},
+    Named<SensorDirection>{"right", SensorDirection::kRight}};
 inline constexpr std::array kOnExitNames{Named<OnExit>{"fail", OnExit::kFail},
                                          Named<OnExit>{"mark", OnExit::kMark},
                                          Named<OnExit>{"ignore", OnExit::kIgnore}};

@@ -30,54 +30,6 @@ bool is_group_name(const std::string& name) {
          });
 }
 
-/// From the end of an arm to the tips of a rotor of 8 inches, the size that goes with such arms.
-constexpr double kRotorRadius_m = 0.1;
-
-Collision read_collision(const json* value, const std::string& path, double arm_m,
-                         Problems& problems) {
-  Collision collision;
-  ObjectReader reader{value, path, problems};
-  collision.behaviour = reader.choice("behaviour", collision.behaviour, kCollisionBehaviourNames);
-  collision.restitution = reader.number("restitution", collision.restitution, {0.0, 1.0});
-  collision.radius_m = reader.quantity("radius", arm_m + kRotorRadius_m, {kLength, "1 cm", "20 m"});
-  reader.finish();
-  return collision;
-}
-
-Vehicle read_vehicle(const json* value, const std::string& path, Problems& problems) {
-  ObjectReader reader{value, path, problems};
-  const bool fixed = reader.choice_index("model", {"x4", "fixed"}) == 1;
-  if (value != nullptr && value->is_object() && !reader.has("model")) {
-    reader.missing("model", "x4, fixed");
-  }
-  if (fixed) {
-    reader.finish();
-    return FixedVehicle{};
-  }
-  X4Vehicle x4;
-  x4.mass_kg = reader.quantity("mass", x4.mass_kg, {kMass, "10 g", "100 kg"});
-  x4.arm_m = reader.quantity("arm", x4.arm_m, {kLength, "1 cm", "10 m"});
-  const json* inertia = reader.child("inertia");
-  ObjectReader inertia_reader{inertia, reader.path_of("inertia"), problems};
-  const QuantityRange inertia_range{kMomentOfInertia, "0.000001 kg m2", "100 kg m2"};
-  x4.inertia_roll_kgm2 = inertia_reader.quantity("roll", x4.inertia_roll_kgm2, inertia_range);
-  x4.inertia_pitch_kgm2 = inertia_reader.quantity("pitch", x4.inertia_pitch_kgm2, inertia_range);
-  x4.inertia_yaw_kgm2 = inertia_reader.quantity("yaw", x4.inertia_yaw_kgm2, inertia_range);
-  inertia_reader.finish();
-  const json* drag = reader.child("drag");
-  ObjectReader drag_reader{drag, reader.path_of("drag"), problems};
-  const QuantityRange drag_range{kDrag, "0 N s/m", "100 N s/m"};
-  x4.drag_vertical_Nspm = drag_reader.quantity("vertical", x4.drag_vertical_Nspm, drag_range);
-  x4.drag_lateral_Nspm = drag_reader.quantity("lateral", x4.drag_lateral_Nspm, drag_range);
-  drag_reader.finish();
-  x4.motor_timeout = reader.duration("motor_timeout", x4.motor_timeout, "1 ms", "10 s");
-  x4.faithful = reader.boolean("faithful", x4.faithful);
-  x4.collision =
-      read_collision(reader.child("collision"), reader.path_of("collision"), x4.arm_m, problems);
-  reader.finish();
-  return x4;
-}
-
 ListLayout read_list_layout(ObjectReader& reader, std::uint32_t count) {
   ListLayout list;
   const json* positions = reader.child("positions");

@@ -40,6 +40,8 @@ namespace cuscus::scenario {
 [[nodiscard]] World read_world(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] GroundStation read_ground_station(const nlohmann::json* value, Problems& problems);
 [[nodiscard]] Record read_record(const nlohmann::json* value, Problems& problems);
+[[nodiscard]] Vehicle read_vehicle(const nlohmann::json* value, const std::string& path,
+                                   Problems& problems);
 [[nodiscard]] std::vector<Group> read_fleet(const nlohmann::json* value,
                                             const std::filesystem::path& folder,
                                             Problems& problems);

@@ -276,6 +276,33 @@ Json json_of(const World& world) {
 
 Json json_of(const FixedVehicle& /*vehicle*/) { return {{"model", "fixed"}}; }
 
+Json json_of(const std::optional<UltrasonicSensor>& sensor) {
+  if (!sensor) {
+    return "none";
+  }
+  return {{"rate", rate_text(sensor->period)},
+          {"range", format_quantity(sensor->range_m, kLength)},
+          {"beam", format_quantity(sensor->beam_rad, kAngle)},
+          {"noise", format_quantity(sensor->noise_m, kLength)},
+          {"direction", name_of(kSensorDirectionNames, sensor->direction)}};
+}
+
+Json json_of(const std::optional<LidarSensor>& lidar) {
+  if (!lidar) {
+    return "none";
+  }
+  Json elevations = Json::array();
+  for (const double elevation_rad : lidar->elevations_rad) {
+    elevations.push_back(format_quantity(elevation_rad, kAngle));
+  }
+  return {{"rate", rate_text(lidar->period)},
+          {"range", format_quantity(lidar->range_m, kLength)},
+          {"field", format_quantity(lidar->field_rad, kAngle)},
+          {"rays", lidar->rays},
+          {"elevations", elevations},
+          {"noise", format_quantity(lidar->noise_m, kLength)}};
+}
+
 Json json_of(const X4Vehicle& x4) {
   return {{"model", "x4"},
           {"mass", format_quantity(x4.mass_kg, kMass)},
@@ -292,7 +319,9 @@ Json json_of(const X4Vehicle& x4) {
           {"collision",
            {{"behaviour", name_of(kCollisionBehaviourNames, x4.collision.behaviour)},
             {"restitution", x4.collision.restitution},
-            {"radius", format_quantity(x4.collision.radius_m, kLength)}}}};
+            {"radius", format_quantity(x4.collision.radius_m, kLength)}}},
+          {"sensors",
+           {{"ultrasonic", json_of(x4.sensors.ultrasonic)}, {"lidar", json_of(x4.sensors.lidar)}}}};
 }
 
 Json json_of(const CircleLayout& circle) {

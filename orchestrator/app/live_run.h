@@ -95,7 +95,7 @@ class LiveRun {
 
  private:
   /// Numbers of the nodes that fly.
-  [[nodiscard]] std::vector<std::uint32_t> vehicles() const;
+  [[nodiscard]] std::vector<RunMemories::VehicleNode> vehicles() const;
   void start_world();
   void reserve_processor();
   void build_nodes();

@@ -50,11 +50,11 @@ std::vector<node::NodeNetwork> networks_of(const Plan& plan) {
 
 }  // namespace
 
-std::vector<std::uint32_t> LiveRun::vehicles() const {
-  std::vector<std::uint32_t> vehicles;
-  for (const auto& node : plan_.nodes) {
-    if (node.role == NodeRole::kUav) {
-      vehicles.push_back(node.index);
+std::vector<RunMemories::VehicleNode> LiveRun::vehicles() const {
+  std::vector<RunMemories::VehicleNode> vehicles;
+  for (const proto::WorldNode& node : plan_.world.nodes()) {
+    if (node.has_multirotor()) {
+      vehicles.push_back({.node = node.node(), .has_lidar = node.has_lidar()});
     }
   }
   return vehicles;
@@ -68,7 +68,7 @@ void LiveRun::start_world() {
       {Descriptors::KIND_CLOCK_PAGE, 0, memories_.clock()},
       {Descriptors::KIND_FLEET_MEMORY, 0, memories_.fleet()},
       {Descriptors::KIND_MOTION_CAPTURE_MEMORY, 0, memories_.motion_capture()}};
-  for (const std::uint32_t node : vehicles()) {
+  for (const auto& [node, has_lidar] : vehicles()) {
     given.push_back({Descriptors::KIND_SENSOR_MEMORY, node, memories_.sensors(node)});
     given.push_back({Descriptors::KIND_ACTUATOR_MEMORY, node, memories_.actuators(node)});
   }
@@ -146,7 +146,7 @@ void LiveRun::start_netsim() {
   if (settings_.frame_log) {
     given.push_back({Descriptors::KIND_FRAME_LOG, 0, settings_.frame_log.get()});
   }
-  for (const std::uint32_t node : vehicles()) {
+  for (const auto& [node, has_lidar] : vehicles()) {
     given.push_back({Descriptors::KIND_RADIO_READINGS, node, memories_.radio_readings(node)});
   }
   if (settings_.reception_log) {

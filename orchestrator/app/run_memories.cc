@@ -10,7 +10,7 @@ using posix::create_shared_memory;
 using posix::MemoryMapping;
 using posix::seal_against_new_writers;
 
-RunMemories::RunMemories(std::uint32_t node_count, const std::vector<std::uint32_t>& vehicles)
+RunMemories::RunMemories(std::uint32_t node_count, const std::vector<VehicleNode>& vehicles)
     : clock_{create_shared_memory("cuscus-clock", shm::ClockPageWriter::byte_size())},
       clock_mapping_{MemoryMapping::read_write(clock_)},
       clock_writer_{clock_mapping_.writable_bytes()},
@@ -19,8 +19,9 @@ RunMemories::RunMemories(std::uint32_t node_count, const std::vector<std::uint32
       motion_capture_{create_shared_memory("cuscus-motion-capture",
                                            shm::MotionCaptureMemoryWriter::byte_size(node_count))} {
   seal_against_new_writers(clock_);
-  for (const std::uint32_t node : vehicles) {
-    sensors_[node] = create_shared_memory("cuscus-sensors", shm::SensorMemoryWriter::byte_size());
+  for (const auto& [node, has_lidar] : vehicles) {
+    sensors_[node] =
+        create_shared_memory("cuscus-sensors", shm::SensorMemoryWriter::byte_size(has_lidar));
     radio_readings_[node] = create_shared_memory("cuscus-radio-readings",
                                                  shm::RadioReadingsWriter::byte_size(node_count));
     auto& actuators = actuators_[node] =

@@ -17,8 +17,13 @@ namespace cuscus::orchestrator {
 /// single writer of ours; world and netsim lay out their own.
 class RunMemories {
  public:
+  struct VehicleNode {
+    std::uint32_t node;
+    bool has_lidar;
+  };
+
   /// For nodes 0 ... node_count - 1, of which `vehicles` have sensors and actuators.
-  RunMemories(std::uint32_t node_count, const std::vector<std::uint32_t>& vehicles);
+  RunMemories(std::uint32_t node_count, const std::vector<VehicleNode>& vehicles);
 
   [[nodiscard]] int clock() const noexcept { return clock_.get(); }
   [[nodiscard]] int fleet() const noexcept { return fleet_.get(); }

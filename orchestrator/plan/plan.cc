@@ -83,6 +83,46 @@ proto::CollisionConfiguration collision_of(const scenario::Collision& from) {
   return collision;
 }
 
+proto::Vector3 axis_of(scenario::SensorDirection direction) {
+  switch (direction) {
+    case scenario::SensorDirection::kDown:
+      return vector_of({0.0, 0.0, -1.0});
+    case scenario::SensorDirection::kUp:
+      return vector_of({0.0, 0.0, 1.0});
+    case scenario::SensorDirection::kForward:
+      return vector_of({1.0, 0.0, 0.0});
+    case scenario::SensorDirection::kBackward:
+      return vector_of({-1.0, 0.0, 0.0});
+    case scenario::SensorDirection::kLeft:
+      return vector_of({0.0, 1.0, 0.0});
+    case scenario::SensorDirection::kRight:
+      return vector_of({0.0, -1.0, 0.0});
+  }
+  return {};
+}
+
+void add_sensors(const scenario::VehicleSensors& from, proto::WorldNode& node) {
+  if (from.ultrasonic) {
+    proto::UltrasonicConfiguration& ultrasonic = *node.mutable_ultrasonic();
+    ultrasonic.set_period_ns(from.ultrasonic->period.count());
+    ultrasonic.set_range_m(from.ultrasonic->range_m);
+    ultrasonic.set_half_angle_rad(from.ultrasonic->beam_rad / 2.0);
+    ultrasonic.set_noise_m(from.ultrasonic->noise_m);
+    *ultrasonic.mutable_axis_b() = axis_of(from.ultrasonic->direction);
+  }
+  if (from.lidar) {
+    proto::LidarConfiguration& lidar = *node.mutable_lidar();
+    lidar.set_period_ns(from.lidar->period.count());
+    lidar.set_rays(from.lidar->rays);
+    lidar.set_field_rad(from.lidar->field_rad);
+    for (const double elevation_rad : from.lidar->elevations_rad) {
+      lidar.add_elevations_rad(elevation_rad);
+    }
+    lidar.set_range_m(from.lidar->range_m);
+    lidar.set_noise_m(from.lidar->noise_m);
+  }
+}
+
 proto::CircleMission mission_of(const scenario::CircleMission& circle) {
   proto::CircleMission mission;
   *mission.mutable_p_wc_centre_m() =
@@ -323,6 +363,7 @@ class Planner {
         if (x4 != nullptr) {
           *node.mutable_multirotor() = parameters_of(*x4);
           *node.mutable_collision() = collision_of(x4->collision);
+          add_sensors(x4->sensors, node);
         }
       }
     }

@@ -27,26 +27,62 @@ struct ImuReading {
   std::array<double, 3> specific_force_B_mps2;  ///< Accelerometer: +g upwards at rest.
 };
 
-/// Sensors of one vehicle: the world writes, the vehicle's agent reads.
+/// What the ultrasonic sensor says.
+struct UltrasonicReading {
+  std::int64_t sim_time_ns;
+  std::uint64_t sequence;  ///< From 1; 0 means none yet.
+  double distance_m;       ///< Infinite: nothing in range.
+};
+
+/// Rays that a scan of a lidar may have, and rows of equal elevation.
+inline constexpr std::uint32_t kMaxLidarRays = 4096;
+inline constexpr std::uint32_t kMaxLidarRows = 128;
+
+/// One scan of the lidar: `rows` of `rays` each.
+struct LidarScan {
+  std::int64_t sim_time_ns;
+  std::uint64_t sequence;  ///< From 1; 0 means none yet.
+  std::uint32_t rows;
+  std::uint32_t rays;        ///< Of one row; rows x rays <= kMaxLidarRays.
+  double first_azimuth_rad;  ///< In the body, from ahead counter-clockwise.
+  double azimuth_step_rad;
+  std::array<float, kMaxLidarRows> elevation_rad;  ///< Of each row, above the body's x-y plane.
+  std::array<float, kMaxLidarRays> range_m;        ///< Row by row; infinite: nothing in range.
+};
+
+/// Sensors of one vehicle: the world writes, the vehicle's agent reads. Of a vehicle with a lidar,
+/// LidarMemoryLayout follows.
 struct SensorMemoryLayout {
   static constexpr std::uint64_t kMagic = magic_of("CUSSENSE");
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
 
   Header header;
   alignas(kCacheLine) Seqlock<MotionCaptureReading> motion_capture;
   alignas(kCacheLine) Seqlock<ImuReading> imu;
+  alignas(kCacheLine) Seqlock<UltrasonicReading> ultrasonic;
+};
+
+struct LidarMemoryLayout {
+  alignas(kCacheLine) Seqlock<LidarScan> scan;
 };
 
 class SensorMemoryWriter {
  public:
-  [[nodiscard]] static constexpr std::size_t byte_size() { return sizeof(SensorMemoryLayout); }
+  [[nodiscard]] static constexpr std::size_t byte_size(bool with_lidar = false) {
+    return sizeof(SensorMemoryLayout) + (with_lidar ? sizeof(LidarMemoryLayout) : 0);
+  }
+  /// `memory` has byte_size() with or without a lidar, and so has the vehicle.
   explicit SensorMemoryWriter(std::span<std::byte> memory);
 
   void publish(const MotionCaptureReading& reading) noexcept;
   void publish(const ImuReading& reading) noexcept;
+  void publish(const UltrasonicReading& reading) noexcept;
+  /// Of a vehicle with a lidar.
+  void publish(const LidarScan& scan) noexcept;
 
  private:
   SensorMemoryLayout* layout_;
+  LidarMemoryLayout* lidar_{nullptr};
 };
 
 class SensorMemoryReader {
@@ -57,9 +93,13 @@ class SensorMemoryReader {
   /// Nothing before the first reading.
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture() const noexcept;
   [[nodiscard]] std::optional<ImuReading> imu() const noexcept;
+  [[nodiscard]] std::optional<UltrasonicReading> ultrasonic() const noexcept;
+  /// Nothing of a vehicle without one, either.
+  [[nodiscard]] std::optional<LidarScan> lidar() const noexcept;
 
  private:
   const SensorMemoryLayout* layout_;
+  const LidarMemoryLayout* lidar_{nullptr};
 };
 
 /// What the agent asks of its motors.

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "common/units/sim_time.h"
 
@@ -23,6 +25,26 @@ struct MotionCaptureReading {
   std::uint64_t sequence = 0;
   Eigen::Vector3d p_WB_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
+};
+
+/// Distance to the nearest surface in the cone of an ultrasonic sensor.
+struct UltrasonicReading {
+  SimTime time;
+  std::uint64_t sequence = 0;
+  std::optional<double> distance_m;  ///< Nothing: no surface in range.
+};
+
+/// One scan of a lidar: rows of equal elevation, in each the same azimuths. Ray k of row r is in
+/// the body B at azimuth first_azimuth_rad + k azimuth_step_rad, from ahead counter-clockwise, and
+/// at elevations_rad[r] above its x-y plane; ranges_m[r * rays + k] is how far it got.
+struct LidarScan {
+  SimTime time;
+  std::uint64_t sequence = 0;
+  std::uint32_t rays = 0;  ///< Of one row.
+  double first_azimuth_rad = 0.0;
+  double azimuth_step_rad = 0.0;
+  std::vector<float> elevations_rad;
+  std::vector<float> ranges_m;  ///< Infinite: no surface in range.
 };
 
 /// Commands of an X4's motors, 0 ... 1: front left, front right, rear left, rear right.

@@ -11,8 +11,10 @@
 namespace cuscus::sdk {
 
 using flight::ImuReading;
+using flight::LidarScan;
 using flight::MotionCaptureReading;
 using flight::MotorCommands;
+using flight::UltrasonicReading;
 
 /// The time of the run, and how to wait for an instant of it.
 class Clock {
@@ -23,7 +25,7 @@ class Clock {
   virtual void sleep_until(SimTime instant) const = 0;
 };
 
-/// The latest readings. Both return nothing before the first one, and the same one again until
+/// The latest readings. All return nothing before the first one, and the same one again until
 /// there is a newer: compare ImuReading::sequence. They never wait.
 class Sensors {
  public:
@@ -31,6 +33,9 @@ class Sensors {
   [[nodiscard]] virtual std::optional<ImuReading> imu() const = 0;
   /// Of this vehicle.
   [[nodiscard]] virtual std::optional<MotionCaptureReading> motion_capture() const = 0;
+  /// Nothing ever of a vehicle that has none; likewise lidar().
+  [[nodiscard]] virtual std::optional<UltrasonicReading> ultrasonic() const { return {}; }
+  [[nodiscard]] virtual std::optional<LidarScan> lidar() const { return {}; }
 };
 
 /// The motion-capture system's view of all vehicles, where there is one to listen to.

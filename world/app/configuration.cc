@@ -2,16 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
+
+#include "proto/shm/vehicle_memory.h"
 
 namespace cuscus::world {
 namespace {
 
 /// A fleet beyond this is a corrupt message, not a scenario.
 constexpr std::uint32_t kMaxNodes = 100'000;
+constexpr double kRightAngle_rad = std::numbers::pi / 2.0;
 
 void require(bool holds, const std::string& what) {
   if (!holds) {
@@ -44,7 +48,51 @@ void check_collision(const proto::CollisionConfiguration& collision, const std::
   require(is_amount(collision.radius_m()), name + "collision.radius_m must be 0 or more");
 }
 
-void check_node(const proto::WorldNode& node) {
+void check_period(const std::string& name, std::int64_t period_ns, std::int64_t step_ns) {
+  require(period_ns == 0 || period_ns >= step_ns, name + " must be 0 (none) or at least the step");
+}
+
+void check_ultrasonic(const proto::UltrasonicConfiguration& ultrasonic, const std::string& name) {
+  require(std::isfinite(ultrasonic.range_m()) && ultrasonic.range_m() > 0.0,
+          name + "ultrasonic.range_m must be above 0");
+  require(ultrasonic.half_angle_rad() > 0.0 && ultrasonic.half_angle_rad() < kRightAngle_rad,
+          name + "ultrasonic.half_angle_rad must be above 0 and below a right angle");
+  require(is_amount(ultrasonic.noise_m()), name + "ultrasonic.noise_m must be 0 or more");
+  constexpr double kRounding = 1e-9;
+  const double length = parameters_of(ultrasonic).axis_B.norm();
+  require(std::abs(length - 1.0) < kRounding, name + "ultrasonic.axis_B must be of length 1");
+}
+
+void check_lidar(const proto::LidarConfiguration& lidar, const std::string& name) {
+  const auto rows = static_cast<std::uint64_t>(lidar.elevations_rad_size());
+  require(rows >= 1 && rows <= shm::kMaxLidarRows && lidar.rays() >= 1 &&
+              rows * lidar.rays() <= shm::kMaxLidarRays,
+          name + "lidar has " + std::to_string(rows) + " rows of " + std::to_string(lidar.rays()) +
+              " rays, must have 1 ... " + std::to_string(shm::kMaxLidarRows) + " rows and 1 ... " +
+              std::to_string(shm::kMaxLidarRays) + " rays in all");
+  require(lidar.field_rad() > 0.0 && lidar.field_rad() <= 4.0 * kRightAngle_rad,
+          name + "lidar.field_rad must be above 0 and at most a whole turn");
+  for (const double elevation_rad : lidar.elevations_rad()) {
+    require(std::abs(elevation_rad) <= kRightAngle_rad,
+            name + "lidar.elevations_rad must be within a right angle");
+  }
+  require(std::isfinite(lidar.range_m()) && lidar.range_m() > 0.0,
+          name + "lidar.range_m must be above 0");
+  require(is_amount(lidar.noise_m()), name + "lidar.noise_m must be 0 or more");
+}
+
+void check_views(const proto::WorldNode& node, std::int64_t step_ns, const std::string& name) {
+  if (node.has_ultrasonic()) {
+    check_period(name + "ultrasonic.period_ns", node.ultrasonic().period_ns(), step_ns);
+    check_ultrasonic(node.ultrasonic(), name);
+  }
+  if (node.has_lidar()) {
+    check_period(name + "lidar.period_ns", node.lidar().period_ns(), step_ns);
+    check_lidar(node.lidar(), name);
+  }
+}
+
+void check_node(const proto::WorldNode& node, std::int64_t step_ns) {
   const std::string name = "node " + std::to_string(node.node()) + " '" + node.name() + "': ";
   require(node.node() < kMaxNodes, name + "the node number must be below 100000");
   const proto::Vector3& start = node.p_wb_start_m();
@@ -58,16 +106,12 @@ void check_node(const proto::WorldNode& node) {
   if (node.has_collision()) {
     check_collision(node.collision(), name);
   }
+  check_views(node, step_ns, name);
   try {
     check_parameters(parameters_of(node.multirotor()));
   } catch (const std::invalid_argument& error) {
     require(false, name + error.what());
   }
-}
-
-void check_period(const char* name, std::int64_t period_ns, std::int64_t step_ns) {
-  require(period_ns == 0 || period_ns >= step_ns,
-          std::string{name} + " must be 0 (none) or at least the step");
 }
 
 }  // namespace
@@ -86,7 +130,7 @@ void check_configuration(const proto::WorldConfiguration& configuration) {
                configuration.step_ns());
   std::set<std::uint32_t> numbers;
   for (const proto::WorldNode& node : configuration.nodes()) {
-    check_node(node);
+    check_node(node, configuration.step_ns());
     require(numbers.insert(node.node()).second,
             "node " + std::to_string(node.node()) + " is there twice");
   }
@@ -112,6 +156,21 @@ MultirotorParameters parameters_of(const proto::MultirotorParameters& message) {
           .inertia_pitch_kgm2 = message.inertia_pitch_kgm2(),
           .inertia_yaw_kgm2 = message.inertia_yaw_kgm2(),
           .motor_speed_per_command = message.motor_speed_per_command()};
+}
+
+UltrasonicParameters parameters_of(const proto::UltrasonicConfiguration& message) {
+  return {.axis_B = {message.axis_b().x(), message.axis_b().y(), message.axis_b().z()},
+          .half_angle_rad = message.half_angle_rad(),
+          .range_m = message.range_m(),
+          .noise_m = message.noise_m()};
+}
+
+LidarParameters parameters_of(const proto::LidarConfiguration& message) {
+  return {.rays = message.rays(),
+          .field_rad = message.field_rad(),
+          .elevations_rad = {message.elevations_rad().begin(), message.elevations_rad().end()},
+          .range_m = message.range_m(),
+          .noise_m = message.noise_m()};
 }
 
 CollisionBody collision_body_of(const proto::WorldNode& node) {

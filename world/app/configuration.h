@@ -5,6 +5,8 @@
 #include "proto/configuration.pb.h"
 #include "world/collision/collision_body.h"
 #include "world/dynamics/multirotor_parameters.h"
+#include "world/sensors/lidar.h"
+#include "world/sensors/ultrasonic.h"
 
 namespace cuscus::world {
 
@@ -16,6 +18,9 @@ void check_configuration(const proto::WorldConfiguration& configuration);
 [[nodiscard]] std::uint32_t slot_count(const proto::WorldConfiguration& configuration);
 
 [[nodiscard]] MultirotorParameters parameters_of(const proto::MultirotorParameters& message);
+
+[[nodiscard]] UltrasonicParameters parameters_of(const proto::UltrasonicConfiguration& message);
+[[nodiscard]] LidarParameters parameters_of(const proto::LidarConfiguration& message);
 
 /// What of a vehicle hits and is hit; without a word about it a point, which meets no others.
 [[nodiscard]] CollisionBody collision_body_of(const proto::WorldNode& node);

@@ -65,6 +65,7 @@ FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration,
   std::vector<FleetCollisions::Member> members;
   add_vehicles(configuration, members);
   collisions_.emplace(std::move(members), Surroundings{city});
+  add_views(configuration, Surroundings{city});
   for (const proto::WorldNode& node : configuration.nodes()) {
     if (!node.has_multirotor()) {
       const RigidBodyState start = start_of(node);
@@ -126,7 +127,8 @@ void FleetSimulation::add_vehicles(const proto::WorldConfiguration& configuratio
            .member = members.size() - 1,
            .gate = CommandGate{SimClock::duration{node.multirotor().motor_timeout_ns()}},
            .sensors = shm::SensorMemoryWriter{sized(
-               memory.sensors, shm::SensorMemoryWriter::byte_size(), "sensor memory")},
+               memory.sensors, shm::SensorMemoryWriter::byte_size(node.has_lidar()),
+               "sensor memory")},
            .actuators = shm::ActuatorMemoryReader{memory.actuators.bytes()},
            .seen_version = 0,
            .published_tally = 0,
@@ -142,11 +144,17 @@ void FleetSimulation::add_vehicles(const proto::WorldConfiguration& configuratio
   }
 }
 
-std::optional<std::uint64_t> FleetSimulation::Schedule::due(std::int64_t now_ns) {
-  if (period_ns == 0 || now_ns / period_ns < static_cast<std::int64_t>(next)) {
-    return std::nullopt;
+void FleetSimulation::add_views(const proto::WorldConfiguration& configuration,
+                                const Surroundings& surroundings) {
+  for (const proto::WorldNode& node : configuration.nodes()) {
+    if (!node.has_multirotor() || !ViewSensors::has_any(node)) {
+      continue;
+    }
+    const auto vehicle = std::find_if(vehicles_.begin(), vehicles_.end(),
+                                      [&](const Vehicle& one) { return one.node == node.node(); });
+    views_.push_back({.member = vehicle->member,
+                      .sensors = {configuration.seed(), node, surroundings, vehicle->sensors}});
   }
-  return next++;
 }
 
 void FleetSimulation::begin() {
@@ -209,6 +217,9 @@ void FleetSimulation::publish_fixed_nodes() noexcept {
 }
 
 void FleetSimulation::publish_readings() {
+  for (View& view : views_) {
+    view.sensors.publish(collisions_->state(view.member), time());
+  }
   const auto imu = imu_schedule_.due(to_ns(time()));
   const auto motion_capture = motion_capture_schedule_.due(to_ns(time()));
   if (!imu && !motion_capture) {

@@ -16,6 +16,8 @@
 #include "proto/shm/vehicle_memory.h"
 #include "world/actuation/command_gate.h"
 #include "world/app/fleet_collisions.h"
+#include "world/app/schedule.h"
+#include "world/app/view_sensors.h"
 #include "world/app/world_memory.h"
 #include "world/dynamics/plant.h"
 #include "world/sensors/imu.h"
@@ -24,7 +26,8 @@
 namespace cuscus::world {
 
 /// The fleet of a run between its shared memories: commands in, truth and sensors out. It knows no
-/// clock; each step() is the next instant. No step makes a system call or allocates.
+/// clock; each step() is the next instant. No step makes a system call, or allocates but where
+/// vehicles come close together.
 class FleetSimulation {
  public:
   /// Lays out fleet, sensor and motion-capture memory and publishes every node where it starts:
@@ -83,17 +86,15 @@ class FleetSimulation {
     std::uint32_t node;
     shm::NodeState state;
   };
-  /// When a sensor is read: reading k at the first step at or after k periods.
-  struct Schedule {
-    std::int64_t period_ns;  // 0: never
-    std::uint64_t next;
-
-    [[nodiscard]] std::optional<std::uint64_t> due(std::int64_t now_ns);
+  struct View {
+    std::size_t member;  // of collisions_
+    ViewSensors sensors;
   };
 
   void add_vehicles(const proto::WorldConfiguration& configuration,
                     std::vector<FleetCollisions::Member>& members);
   void publish_state(const Vehicle& vehicle) noexcept;
+  void add_views(const proto::WorldConfiguration& configuration, const Surroundings& surroundings);
   void publish_fixed_nodes() noexcept;
   void publish_motion_capture(Vehicle& vehicle, const RigidBodyState& body, std::uint64_t reading);
   void publish_imu(Vehicle& vehicle, const RigidBodyState& body, std::uint64_t reading);
@@ -109,6 +110,7 @@ class FleetSimulation {
   std::vector<std::unique_ptr<Plant>> plants_;
   std::vector<Vehicle> vehicles_;
   std::optional<FleetCollisions> collisions_;  // after the plants, which it moves
+  std::vector<View> views_;  // of the vehicles that have any; write to their sensors
   std::vector<FixedNode> fixed_nodes_;
   Schedule imu_schedule_;
   Schedule motion_capture_schedule_;

@@ -13,6 +13,8 @@ struct NoisePurpose {
   static constexpr std::uint16_t kAccelerometer = 0x5702;
   static constexpr std::uint16_t kMotionCapturePosition = 0x5703;
   static constexpr std::uint16_t kMotionCaptureAttitude = 0x5704;
+  static constexpr std::uint16_t kUltrasonic = 0x5705;
+  static constexpr std::uint16_t kLidar = 0x5706;
 };
 
 /// Three independent standard normals: number `reading` of `stream`.

@@ -1,6 +1,6 @@
 // Prints what a vehicle's step costs, for fleets of 10, 100 and 1000 X4 in flight: the plants
-// alone, and the whole of the world's work with its shared memories, over the bare ground and over a
-// city in which all can collide.
+// alone, and the whole of the world's work with its shared memories, over the bare ground and over
+// a city in which all can collide.
 
 #include <chrono>
 #include <cstdio>

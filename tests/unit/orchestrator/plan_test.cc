@@ -109,6 +109,28 @@ TEST_CASE("Each component of the default scenario is told all that it needs") {
   CHECK(gcs.duration_ns() == 60'000'000'000);
 }
 
+TEST_CASE("A vehicle has the view that its group is given, and no other") {
+  const Plan plan = plan_of(R"({"name": "t", "fleet": [
+      {"name": "a", "vehicle": {"model": "x4", "collision": {"behaviour": "crash"},
+       "sensors": {"ultrasonic": {"direction": "left", "beam": "40 deg"},
+                   "lidar": {"rays": 8, "elevations": ["-10 deg", "10 deg"]}}}},
+      {"name": "b", "vehicle": {"model": "x4", "arm": "50 cm"},
+       "start": {"layout": "list", "positions": [["5 m", "0 m", "0 m"]]}}]})");
+
+  const proto::WorldNode& first = plan.world.nodes(0);
+  CHECK(first.collision().behaviour() == "crash");
+  CHECK(first.ultrasonic().period_ns() == 20'000'000);
+  CHECK(first.ultrasonic().half_angle_rad() == Approx(0.34906585));
+  CHECK(first.ultrasonic().axis_b().y() == 1.0);
+  CHECK(first.lidar().period_ns() == 100'000'000);
+  CHECK(first.lidar().rays() == 8);
+  REQUIRE(first.lidar().elevations_rad_size() == 2);
+  CHECK(first.lidar().elevations_rad(0) == Approx(-0.17453293));
+  CHECK_FALSE(plan.world.nodes(1).has_ultrasonic());
+  CHECK_FALSE(plan.world.nodes(1).has_lidar());
+  CHECK(plan.world.nodes(1).collision().radius_m() == Approx(0.6));  // its arm and 10 cm
+}
+
 TEST_CASE("Two pings become two fixed nodes with a command each and nothing else") {
   const Plan plan = make_plan(scenario::load_scenario(kFolder / "two-pings.json"));
 

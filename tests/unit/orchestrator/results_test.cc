@@ -354,6 +354,8 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   first.tap_dropped = 3;
   first.commands = shm::CommandTally{};
   first.commands->rejected_not_finite = 1;
+  first.collisions.emplace().set_buildings(2);
+  first.collisions->set_vehicles(1);
   first.agent.emplace().set_final_state("flying");
   first.programs.push_back({.kind = ProgramKind::kCommand,
                             .program = "ping",
@@ -387,12 +389,15 @@ TEST_CASE("The summary says how every program ended and adds the radio's counts 
   CHECK(json.at("nodes").at(0).at("emulator").at("release_lateness_max_ns") == 48'000);
   CHECK(json.at("nodes").at(0).at("tap_dropped") == 3);
   CHECK(json.at("nodes").at(0).at("commands").at("rejected_not_finite") == 1);
+  CHECK(json.at("nodes").at(0).at("collisions").at("contacts") == 3);
+  CHECK(json.at("nodes").at(0).at("collisions").at("crashed") == false);
   CHECK(json.at("nodes").at(0).at("agent").at("final_state") == "flying");
   const auto& program = json.at("nodes").at(0).at("programs").at(0);
   CHECK(program.at("signal") == SIGSEGV);
   CHECK(program.at("exit_code").is_null());
   CHECK(program.at("ended_at_s") == 1.0);
   CHECK(json.at("nodes").at(1).at("role") == "ground-station");
+  CHECK(json.at("nodes").at(1).at("collisions").is_null());
   CHECK(json.at("nodes").at(1).at("agent").is_null());
   CHECK(json.at("nodes").at(1).at("emulator").is_null());
   CHECK(json.at("nodes").at(1).at("tap_dropped").is_null());

@@ -87,7 +87,7 @@ class SimulatedRun {
   posix::UniqueFd clock_fd_ =
       posix::create_shared_memory("clock", shm::ClockPageWriter::byte_size());
   posix::UniqueFd sensor_fd_ =
-      posix::create_shared_memory("sensors", shm::SensorMemoryWriter::byte_size());
+      posix::create_shared_memory("sensors", shm::SensorMemoryWriter::byte_size(true));
   posix::UniqueFd actuator_fd_ =
       posix::create_shared_memory("actuators", shm::ActuatorMemoryWriter::byte_size());
   posix::UniqueFd fleet_fd_ =

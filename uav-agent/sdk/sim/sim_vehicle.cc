@@ -1,6 +1,8 @@
 #include "uav-agent/sdk/sim/sim_vehicle.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "common/posix/monotonic_clock.h"
@@ -63,6 +65,36 @@ std::optional<ImuReading> SimVehicle::imu() const {
 std::optional<MotionCaptureReading> SimVehicle::motion_capture() const {
   const auto reading = sensor_reader_.motion_capture();
   return reading ? std::optional{converted(*reading)} : std::nullopt;
+}
+
+std::optional<UltrasonicReading> SimVehicle::ultrasonic() const {
+  const auto reading = sensor_reader_.ultrasonic();
+  if (!reading) {
+    return std::nullopt;
+  }
+  UltrasonicReading converted{.time = sim_time(reading->sim_time_ns),
+                              .sequence = reading->sequence,
+                              .distance_m = std::nullopt};
+  if (std::isfinite(reading->distance_m)) {
+    converted.distance_m = reading->distance_m;
+  }
+  return converted;
+}
+
+std::optional<LidarScan> SimVehicle::lidar() const {
+  const auto scan = sensor_reader_.lidar();
+  if (!scan) {
+    return std::nullopt;
+  }
+  const auto ranges = static_cast<std::ptrdiff_t>(scan->rows) * scan->rays;
+  return LidarScan{
+      .time = sim_time(scan->sim_time_ns),
+      .sequence = scan->sequence,
+      .rays = scan->rays,
+      .first_azimuth_rad = scan->first_azimuth_rad,
+      .azimuth_step_rad = scan->azimuth_step_rad,
+      .elevations_rad = {scan->elevation_rad.begin(), scan->elevation_rad.begin() + scan->rows},
+      .ranges_m = {scan->range_m.begin(), scan->range_m.begin() + ranges}};
 }
 
 std::optional<MotionCaptureReading> SimVehicle::motion_capture_of(std::uint32_t node) const {

@@ -56,6 +56,8 @@ class SimVehicle final : public Vehicle,
  private:
   [[nodiscard]] std::optional<ImuReading> imu() const override;
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture() const override;
+  [[nodiscard]] std::optional<UltrasonicReading> ultrasonic() const override;
+  [[nodiscard]] std::optional<LidarScan> lidar() const override;
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture_of(
       std::uint32_t node) const override;
   [[nodiscard]] std::vector<Neighbour> neighbours() const override;

@@ -99,6 +99,33 @@ TEST_CASE("vehicle memory has no reading before the first and no command before 
   CHECK(plant.command()->motors[3] == 0.5);
 }
 
+TEST_CASE("a vehicle's memory has room for a lidar only if the vehicle has one") {
+  const Memory without{SensorMemoryWriter::byte_size()};
+  SensorMemoryWriter plain{without.bytes()};
+  const Memory with{SensorMemoryWriter::byte_size(true)};
+  SensorMemoryWriter world{with.bytes()};
+  const SensorMemoryReader agent{with.bytes()};
+  CHECK(without.bytes().size() + sizeof(LidarMemoryLayout) == with.bytes().size());
+  CHECK_FALSE(agent.lidar());
+  CHECK_FALSE(agent.ultrasonic());
+
+  plain.publish(UltrasonicReading{.sim_time_ns = 1, .sequence = 1, .distance_m = 2.5});
+  LidarScan scan{};
+  scan.sequence = 7;
+  scan.rows = 2;
+  scan.rays = kMaxLidarRays / 2;
+  scan.range_m.back() = 12.5F;
+  world.publish(scan);
+
+  CHECK_FALSE(SensorMemoryReader{without.bytes()}.lidar());
+  CHECK(SensorMemoryReader{without.bytes()}.ultrasonic()->distance_m == 2.5);
+  CHECK(agent.lidar()->sequence == 7);
+  CHECK(agent.lidar()->range_m.back() == 12.5F);
+  scan.rays += 1;  // more than there can be
+  world.publish(scan);
+  CHECK_FALSE(agent.lidar());
+}
+
 TEST_CASE("motion-capture memory carries one reading per node") {
   const Memory memory{MotionCaptureMemoryWriter::byte_size(2)};
   MotionCaptureMemoryWriter writer{memory.bytes(), 2};

@@ -1,6 +1,7 @@
 #include "uav-agent/sdk/sim/sim_session.h"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "tests/unit/uav-agent/simulated_run.h"
 
@@ -61,6 +62,28 @@ TEST_CASE("a vehicle shows what the world writes, and its commands reach the wor
   CHECK(capture.p_WB_m == Eigen::Vector3d{7.0, 8.0, 9.0});
   CHECK(capture.q_WB.w() == 0.5);
   CHECK(capture.q_WB.y() == -0.5);
+
+  CHECK_FALSE(vehicle.sensors().ultrasonic());
+  CHECK_FALSE(vehicle.sensors().lidar());
+  run.sensors.publish(shm::UltrasonicReading{.sim_time_ns = 7, .sequence = 3, .distance_m = 1.5});
+  CHECK(vehicle.sensors().ultrasonic()->distance_m == 1.5);
+  run.sensors.publish(shm::UltrasonicReading{
+      .sim_time_ns = 8, .sequence = 4, .distance_m = std::numeric_limits<double>::infinity()});
+  CHECK(vehicle.sensors().ultrasonic()->time == sim_time(8));
+  CHECK_FALSE(vehicle.sensors().ultrasonic()->distance_m);
+  shm::LidarScan scan{};
+  scan.sequence = 5;
+  scan.rows = 2;
+  scan.rays = 3;
+  scan.first_azimuth_rad = -0.5;
+  scan.azimuth_step_rad = 0.5;
+  scan.elevation_rad[1] = 0.25F;
+  scan.range_m[5] = 9.5F;
+  run.sensors.publish(scan);
+  const auto seen = vehicle.sensors().lidar().value();
+  CHECK(seen.rays == 3);
+  CHECK(seen.elevations_rad == std::vector{0.0F, 0.25F});
+  CHECK(seen.ranges_m == std::vector{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 9.5F});
 
   vehicle.actuators().set_motors({0.1, 0.2, 0.3, 0.4}, sim_time(77));
   vehicle.actuators().set_motors({0.5, 0.6, 0.7, 0.8}, sim_time(78));

@@ -232,6 +232,21 @@ TEST_CASE("a configuration that cannot be is refused by name") {
     configuration.mutable_nodes(1)->mutable_collision()->set_restitution(1.1);
     CHECK_THAT(refusal(), Catch::Contains("restitution"));
   }
+  SECTION("an ultrasonic sensor that points nowhere") {
+    proto::UltrasonicConfiguration& ultrasonic =
+        *configuration.mutable_nodes(0)->mutable_ultrasonic();
+    ultrasonic.set_period_ns(20'000'000);
+    ultrasonic.set_range_m(6.0);
+    ultrasonic.set_half_angle_rad(0.2);
+    CHECK_THAT(refusal(), Catch::Contains("'uav0'") && Catch::Contains("axis_B"));
+  }
+  SECTION("a lidar with more rays than its memory") {
+    proto::LidarConfiguration& lidar = *configuration.mutable_nodes(0)->mutable_lidar();
+    lidar.set_rays(3000);
+    lidar.add_elevations_rad(0.0);
+    lidar.add_elevations_rad(0.1);
+    CHECK_THAT(refusal(), Catch::Contains("2 rows of 3000 rays") && Catch::Contains("4096"));
+  }
   SECTION("sensors faster than the step") {
     configuration.set_imu_period_ns(10);
     CHECK_THAT(refusal(), Catch::Contains("imu_period_ns"));

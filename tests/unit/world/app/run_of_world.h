@@ -61,13 +61,15 @@ inline proto::WorldConfiguration fleet_configuration(std::uint32_t vehicles) {
 /// The orchestrator's, the agents' and the readers' side of a run: it owns the memories.
 class RunOfWorld {
  public:
-  RunOfWorld(std::uint32_t nodes, const std::vector<std::uint32_t>& vehicles)
+  RunOfWorld(std::uint32_t nodes, const std::vector<std::uint32_t>& vehicles,
+             bool with_lidar = false)
       : fleet_{posix::create_shared_memory("fleet", shm::FleetMemoryWriter::byte_size(nodes))},
         motion_capture_{posix::create_shared_memory(
             "motion-capture", shm::MotionCaptureMemoryWriter::byte_size(nodes))} {
     for (const std::uint32_t node : vehicles) {
       Vehicle vehicle{
-          .sensors = posix::create_shared_memory("s", shm::SensorMemoryWriter::byte_size()),
+          .sensors =
+              posix::create_shared_memory("s", shm::SensorMemoryWriter::byte_size(with_lidar)),
           .actuators = posix::create_shared_memory("a", shm::ActuatorMemoryWriter::byte_size()),
           .agent = {}};
       vehicle.agent = posix::MemoryMapping::read_write(vehicle.actuators);

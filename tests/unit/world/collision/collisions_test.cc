@@ -214,7 +214,7 @@ TEST_CASE("vehicles that swarm into a street never overlap by more than a step's
     }
     collisions.step(states, after(step));
     hits += collisions.events().size();
-    for (std::uint32_t a = 0; a < kVehicles; ++a) {
+    for (std::uint32_t a = 0; step % 5 == 0 && a < kVehicles; ++a) {
       for (std::uint32_t b = a + 1; b < kVehicles; ++b) {
         nearest_m = std::min(nearest_m, (states[a].p_WB_m - states[b].p_WB_m).norm());
       }
