@@ -29,6 +29,13 @@ Surface surface_of(const Capsule& capsule, const Eigen::Vector3d& p) {
           .normal = normal};
 }
 
+double distance_m(const std::optional<Hit>& hit) {
+  if (hit) {
+    return hit->distance_m;
+  }
+  return kEndless_m;
+}
+
 /// What a ray has met so far.
 class NearestEntry {
  public:
@@ -129,7 +136,7 @@ void CityGeometry::ranges(const Eigen::Vector3d& p_WO, std::span<const Eigen::Ve
   }
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const auto hit = first_hit(p_WO, directions[i], range_m);
-    distances_m[i] = hit ? hit->distance_m : kEndless_m;
+    distances_m[i] = distance_m(hit);
   }
 }
 
@@ -248,12 +255,12 @@ double CityGeometry::ground_m(const Eigen::Vector2d& p_W) const {
 
 double CityGeometry::free_above_m(const Eigen::Vector3d& p_W) const {
   const auto hit = first_hit(p_W, Eigen::Vector3d::UnitZ(), kEndless_m);
-  return hit ? hit->distance_m : kEndless_m;
+  return distance_m(hit);
 }
 
 double CityGeometry::free_below_m(const Eigen::Vector3d& p_W) const {
   const auto hit = first_hit(p_W, -Eigen::Vector3d::UnitZ(), kEndless_m);
-  return hit ? hit->distance_m : kEndless_m;
+  return distance_m(hit);
 }
 
 }  // namespace cuscus::city

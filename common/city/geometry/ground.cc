@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace cuscus::city {
@@ -14,10 +15,11 @@ void append_lines(double start, double way, std::size_t lines, std::vector<doubl
     return;
   }
   const double last = static_cast<double>(lines) - 1.0;
-  const double low = std::max(0.0, std::ceil(std::min(start, start + way)));
-  const double high = std::min(last, std::floor(std::max(start, start + way)));
-  for (double line = low; line <= high; line += 1.0) {
-    at.push_back(std::clamp((line - start) / way, 0.0, 1.0));
+  const double low = std::clamp(std::ceil(std::min(start, start + way)), 0.0, last + 1.0);
+  const double high = std::clamp(std::floor(std::max(start, start + way)), -1.0, last);
+  const auto end = static_cast<std::int64_t>(high) + 1;
+  for (auto line = static_cast<std::int64_t>(low); line < end; ++line) {
+    at.push_back(std::clamp((static_cast<double>(line) - start) / way, 0.0, 1.0));
   }
 }
 
