@@ -29,9 +29,19 @@ class BoxTree final {
   /// Calls `visit(box)` for the boxes that p(t) = start + t way, 0 <= t <= 1, meets, in no order;
   /// until it returns true. Tells whether it has.
   template <class Visit>
-  bool any_along(const Eigen::Vector3d& start, const Eigen::Vector3d& way, Visit visit) const {
+  [[nodiscard]] bool any_along(const Eigen::Vector3d& start, const Eigen::Vector3d& way,
+                               Visit visit) const {
     return visit_along(start, way, &visit, [](void* call, std::uint32_t box) -> bool {
       return (*static_cast<Visit*>(call))(box);
+    });
+  }
+
+  /// The same of all of them.
+  template <class Visit>
+  void along(const Eigen::Vector3d& start, const Eigen::Vector3d& way, Visit visit) const {
+    visit_along(start, way, &visit, [](void* call, std::uint32_t box) -> bool {
+      (*static_cast<Visit*>(call))(box);
+      return false;
     });
   }
 

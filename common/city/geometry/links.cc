@@ -42,10 +42,9 @@ void CityGeometry::crossings(const Eigen::Vector3d& p_WA, const Eigen::Vector3d&
   found.inside.clear();
   const Segment segment{p_WA, p_WB};
   Indices places;
-  parts_->prisms.any_along(segment.a, segment.b - segment.a, [&](std::uint32_t place) {
+  parts_->prisms.along(segment.a, segment.b - segment.a, [&](std::uint32_t place) {
     places.push_back(place);
     __builtin_prefetch(parts_->places[place].prism);
-    return false;
   });
   std::sort(places.begin(), places.end());
   // Most of the time goes into waiting for memory: ask for all of it before the first is needed.
@@ -99,10 +98,9 @@ void CityGeometry::near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB
     if (passes_by(parts_->boxes[place], p_WA, way, margin_m)) {
       buildings.push_back(parts_->places[place].building);
     }
-    return false;
   };
   if (margin_m <= kWide_m) {
-    parts_->wide_prisms.any_along(p_WA, way, consider);
+    parts_->wide_prisms.along(p_WA, way, consider);
   } else {
     parts_->prisms.around(p_WA + 0.5 * way, 0.5 * way.norm() + margin_m, consider);
   }
@@ -127,14 +125,13 @@ double CityGeometry::foliage_m(const Eigen::Vector3d& p_WA, const Eigen::Vector3
   const Segment segment{p_WA, p_WB};
   const Eigen::Vector3d way = segment.b - segment.a;
   Intervals leaves;
-  parts_->plants.any_along(segment.a, way, [&](std::uint32_t plant) {
+  parts_->plants.along(segment.a, way, [&](std::uint32_t plant) {
     if (plant >= parts_->trees.size()) {
       const SolidShape& wood = parts_->woods[plant - parts_->trees.size()];
       wood.prisms().front().append_inside(segment, leaves);
     } else if (const auto inside = parts_->trees[plant].crown.inside(segment.a, way)) {
       leaves.push_back(*inside);
     }
-    return false;
   });
   unite(leaves, 0.0);
   cut_to_segment(leaves);
