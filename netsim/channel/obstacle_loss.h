@@ -28,9 +28,7 @@ struct ObstacleTerms {
   Decibel diffraction{};
   Decibel foliage{};
 
-  [[nodiscard]] Decibel sum() const {
-    return outer_walls + inner_walls + diffraction + foliage;
-  }
+  [[nodiscard]] Decibel sum() const { return outer_walls + inner_walls + diffraction + foliage; }
 };
 
 /// What comes through the bodies and what goes around them, added as powers. One body that the ray
