@@ -185,7 +185,11 @@ void check_positions(const Scenario& scenario, Problems& problems) {
 }
 
 /// The autopilot takes where it stands for the ground.
+/// On roofs only the world knows what a vehicle stands on.
 void check_standing(const Scenario& scenario, Problems& problems) {
+  if (scenario.city) {
+    return;
+  }
   for (std::size_t i = 0; i < scenario.fleet.size(); ++i) {
     const Group& group = scenario.fleet[i];
     const auto positions = start_positions(group);
