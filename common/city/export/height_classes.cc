@@ -41,8 +41,9 @@ HeightClasses::HeightClasses(const City& city) {
   const double low_m = at(kRarest);
   const double high_m = at(1.0 - kRarest);
   const double step_m = round_step(std::max((high_m - low_m) / kWantedClasses, kSmallestStep_m));
-  for (double bound = std::floor(low_m / step_m) + 1.0; bound * step_m <= high_m; bound += 1.0) {
-    bounds_m_.push_back(bound * step_m);
+  const auto first = static_cast<int>(std::floor(low_m / step_m)) + 1;
+  for (int i = first; i * step_m <= high_m; ++i) {
+    bounds_m_.push_back(i * step_m);
   }
 }
 

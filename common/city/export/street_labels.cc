@@ -49,8 +49,9 @@ std::vector<Eigen::Vector2d> points_of(const StreetLabel& label) {
   const Eigen::Vector2d along{std::cos(angle_rad), std::sin(angle_rad)};
   const double half = text_length(label) / 2.0;
   std::vector<Eigen::Vector2d> points;
-  for (double at = -half; at <= half; at += label.size) {
-    points.emplace_back(label.middle + along * at);
+  const auto count = static_cast<int>(2.0 * half / label.size) + 1;
+  for (int i = 0; i < count; ++i) {
+    points.emplace_back(label.middle + along * (i * label.size - half));
   }
   return points;
 }

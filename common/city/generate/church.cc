@@ -5,8 +5,8 @@
 namespace cuscus::city::generate {
 namespace {
 
-constexpr double kLongestNave_m = 44.0;
-constexpr double kShortestNave_m = 18.0;
+constexpr int kLongestNave_m = 44;
+constexpr int kShortestNave_m = 18;
 constexpr double kNaveWidth = 0.42;  // of its length
 constexpr double kTowerSide = 0.5;   // of the nave's width
 constexpr double kFreeAround_m = 2.0;
@@ -52,7 +52,7 @@ std::optional<PlannedBuilding> church_in(const ConvexCell& block, Dice& dice) {
   const ChurchPlan plan = church_plan();
   const Eigen::Vector2d along = long_direction(free);
   const Eigen::Vector2d middle = centroid(free);
-  for (double nave_m = kLongestNave_m; nave_m >= kShortestNave_m; nave_m -= 1.0) {
+  for (int nave_m = kLongestNave_m; nave_m >= kShortestNave_m; --nave_m) {
     const Ring outline = placed(plan.outline, middle, along, nave_m);
     if (!std::all_of(outline.begin(), outline.end(),
                      [&](const Eigen::Vector2d& corner) { return contains(free, corner); })) {
