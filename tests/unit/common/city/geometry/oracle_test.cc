@@ -62,6 +62,12 @@ OracleCrossing oracle(const FlatPolygon& polygon, const Prism& prism, const Rand
   return result;
 }
 
+double level_distance_m(const RandomRay& ray, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d way = (ray.b - ray.a).head<2>();
+  const Eigen::Vector2d from_a = p - ray.a.head<2>();
+  return (from_a - std::clamp(from_a.dot(way) / way.squaredNorm(), 0.0, 1.0) * way).norm();
+}
+
 TEST_CASE("walls and lengths of 20 000 random rays are those that Boost.Geometry finds") {
   const City city = town_of_stars(7);
   const CityGeometry geometry{city};
@@ -74,7 +80,7 @@ TEST_CASE("walls and lengths of 20 000 random rays are those that Boost.Geometry
   int doubtful = 0;
   int walled = 0;
   Crossings found;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < 20'000 / kOneIn; ++i) {
     const RandomRay ray{draws.place({0.0, 0.0, 0.0}, {300.0, 300.0, 42.0}),
                         draws.place({0.0, 0.0, 0.0}, {300.0, 300.0, 42.0})};
     geometry.crossings(ray.a, ray.b, found);
@@ -82,6 +88,12 @@ TEST_CASE("walls and lengths of 20 000 random rays are those that Boost.Geometry
       const auto crossing = std::find_if(found.buildings.begin(), found.buildings.end(),
                                          [b](const Crossing& each) { return each.building == b; });
       const bool crossed = crossing != found.buildings.end();
+      // Boost.Geometry is asked where the ray comes near: no star reaches further than 24 m.
+      const Eigen::Vector2d centre_m{25.0 + 50.0 * (b % 6), 25.0 + 50.0 * (b / 6)};
+      if (level_distance_m(ray, centre_m) > 24.0) {
+        REQUIRE_FALSE(crossed);
+        continue;
+      }
       const OracleCrossing expected = oracle(polygons[b], city.buildings[b].prisms[0], ray);
       if (expected.doubtful) {
         ++doubtful;
@@ -94,14 +106,14 @@ TEST_CASE("walls and lengths of 20 000 random rays are those that Boost.Geometry
     }
   }
   CHECK(doubtful < 100);
-  CHECK(walled > 20'000);
+  CHECK(walled > 20'000 / kOneIn);
 }
 
 TEST_CASE("distances to shapes that are not convex are those of Boost.Geometry") {
   const City city = town_of_stars(41);
   Draws draws{random::CounterStream{42, 43}};
 
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 2000 / kOneIn; ++i) {
     const auto index = static_cast<std::size_t>(i) % city.buildings.size();
     const Prism& prism = city.buildings[index].prisms[0];
     const FlatPolygon polygon = flat(prism.footprint);
