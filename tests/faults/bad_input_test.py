@@ -99,7 +99,7 @@ class BadInput(unittest.TestCase):
 
     def test_command_line(self):
         scenario = self.file(small_fleet())
-        self.refused("frobnicate", says=("frobnicate", "run, check, air, schema"))
+        self.refused("frobnicate", says=("frobnicate", "run, check, air, city, schema"))
         self.refused("run", scenario, "--bogus", says=("--bogus", "--help"), lines=2)
         self.refused("run", says=("SCENARIO", "--help"), lines=2)
         self.refused(says=("subcommand", "--help"), lines=2)
