@@ -58,6 +58,7 @@ void append(const Value& value, std::string& bytes) {
   bytes.append(raw.data(), raw.size());
 }
 
+// NOLINTNEXTLINE(bugprone-exception-escape): of its implicit moves, which throw nothing
 class Model {
  public:
   void add(const std::string& name, const SolidMesh& mesh, const Look& look) {

@@ -50,6 +50,7 @@ std::vector<Eigen::Vector2d> points_of(const StreetLabel& label) {
   const double half = text_length(label) / 2.0;
   std::vector<Eigen::Vector2d> points;
   const auto count = static_cast<int>(2.0 * half / label.size) + 1;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     points.emplace_back(label.middle + along * (i * label.size - half));
   }

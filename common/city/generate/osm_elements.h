@@ -21,6 +21,7 @@ struct OsmPoint {
   std::int64_t latitude{0};
   std::int64_t longitude{0};
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): the check takes its zero for a pointer
   auto operator<=>(const OsmPoint&) const = default;
 };
 

@@ -24,7 +24,10 @@ struct Board {
 
   [[nodiscard]] int site(int column, int row) const {
     const bool inside = column >= 0 && row >= 0 && column < fields && row < fields;
-    return inside ? site_of[static_cast<std::size_t>(row * fields + column)] : kNoSite;
+    const auto across = static_cast<std::size_t>(fields);
+    return inside
+               ? site_of[static_cast<std::size_t>(row) * across + static_cast<std::size_t>(column)]
+               : kNoSite;
   }
 };
 

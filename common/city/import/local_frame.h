@@ -5,6 +5,7 @@
 
 #include "common/city/city.h"
 
+// NOLINTNEXTLINE(readability-identifier-naming): its name
 namespace GeographicLib {
 class LocalCartesian;
 }
