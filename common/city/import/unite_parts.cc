@@ -83,6 +83,7 @@ UnitedPrisms unite_parts(const std::vector<Prism>& outlines, const std::vector<P
     }
   }
   std::vector<const Footprint*> covered;
+  covered.reserve(parts.size());
   for (const Prism& part : parts) {
     covered.push_back(&part.footprint);
   }
