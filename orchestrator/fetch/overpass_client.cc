@@ -23,8 +23,8 @@ using Seconds = std::chrono::seconds;
 
 constexpr Seconds kConnectTime{15};
 constexpr Seconds kSpareTime{20};  // for the server's own queue and the way
-constexpr std::size_t kPieceBytes = 64 * 1024;
-constexpr std::size_t kLongestErrorPage = 64 * 1024;
+constexpr std::size_t kPieceBytes = std::size_t{64} * 1024;
+constexpr std::size_t kLongestErrorPage = std::size_t{64} * 1024;
 
 /// One exchange. Each step is asynchronous for its time-out's sake, and waited for.
 class OverpassExchange {
