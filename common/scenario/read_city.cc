@@ -24,7 +24,7 @@ std::filesystem::path read_path(ObjectReader& reader, const std::string& key,
       return {};
     }
   }
-  const std::filesystem::path file = (folder / path).lexically_normal();
+  std::filesystem::path file = (folder / path).lexically_normal();
   std::error_code error;
   if (text.empty() || !std::filesystem::is_regular_file(file, error)) {
     reader.problem(key, shown(text) + " is no file" + kAllowedFile);
