@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/city/names.h"
 #include "common/scenario/scenario.h"
 
 // How enumerators are written in a scenario.
@@ -48,14 +49,7 @@ inline constexpr std::array kAerialAreaNames{Named<AerialArea>{"RMa-AV", AerialA
 /// Losses of outer walls by material: sections 3.1.2 and 4 of the CUSCUS paper.
 inline constexpr std::array kWallNames{Named<double>{"stone", 12.0},
                                        Named<double>{"concrete", 15.0}};
-/// In the order of city::Material.
-inline constexpr std::array kMaterialNames{
-    Named<city::Material>{"stone", city::Material::kStone},
-    Named<city::Material>{"concrete", city::Material::kConcrete},
-    Named<city::Material>{"brick", city::Material::kBrick},
-    Named<city::Material>{"glass", city::Material::kGlass},
-    Named<city::Material>{"metal", city::Material::kMetal},
-    Named<city::Material>{"wood", city::Material::kWood}};
+using city::kMaterialNames;
 inline constexpr std::array kCityStyleNames{Named<CityStyle>{"old-town", CityStyle::kOldTown},
                                             Named<CityStyle>{"grid", CityStyle::kGrid}};
 inline constexpr std::array kWallModelNames{Named<WallModel>{"paper", WallModel::kPaper},

@@ -7,8 +7,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "common/city/export/names.h"
 #include "common/city/export/solids.h"
+#include "common/city/names.h"
 
 namespace cuscus::city {
 namespace {
@@ -179,7 +179,7 @@ std::string glb_bytes(const City& city, const MapLabels& labels) {
   }
   for (std::size_t i = 0; i < walls.size(); ++i) {
     const auto material = static_cast<Material>(i);
-    model.add(name_of(material), walls[i], look_of(material));
+    model.add(std::string{name_of(material)}, walls[i], look_of(material));
   }
   SolidMesh trees;
   for (const Tree& tree : city.trees) {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "common/city/export/names.h"
+#include "common/city/names.h"
 
 namespace cuscus::city {
 namespace {

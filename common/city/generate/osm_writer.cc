@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/city/generate/osm_elements.h"
+#include "common/city/names.h"
 
 namespace cuscus::city::generate {
 namespace {
@@ -22,25 +23,6 @@ std::string number(double value) {
   return text;
 }
 
-/// Values of OSM's key building:material.
-const char* osm_material(Material material) {
-  switch (material) {
-    case Material::kStone:
-      return "stone";
-    case Material::kConcrete:
-      return "concrete";
-    case Material::kBrick:
-      return "brick";
-    case Material::kGlass:
-      return "glass";
-    case Material::kMetal:
-      return "metal";
-    case Material::kWood:
-      return "wood";
-  }
-  return "";
-}
-
 void add_name(const std::string& name, Tags& tags) {
   if (!name.empty()) {
     tags.push_back({"name", name});
@@ -51,13 +33,13 @@ void add_building(const PlannedBuilding& building, OsmElements& elements) {
   const double storeys = std::max(1.0, std::floor(building.height_m / kStorey_m));
   Tags tags{{"building", building.use},
             {"building:levels", number(storeys)},
-            {"building:material", osm_material(building.walls)},
+            {"building:material", std::string{name_of(building.walls)}},
             {"height", number(building.height_m)}};
   add_name(building.name, tags);
   elements.add_area(building.footprint, std::move(tags));
   for (const Prism& part : building.parts) {
     Tags part_tags{{"building:part", "yes"},
-                   {"building:material", osm_material(building.walls)},
+                   {"building:material", std::string{name_of(building.walls)}},
                    {"height", number(part.top_m)}};
     if (part.bottom_m > 0.0) {
       part_tags.push_back({"min_height", number(part.bottom_m)});

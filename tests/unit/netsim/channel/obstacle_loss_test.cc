@@ -5,6 +5,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "common/random/counter_stream.h"
@@ -227,21 +228,25 @@ TEST_CASE("the loss does not jump, at edges neither, unless a node goes through 
   for (int path = 0; path < 400; ++path) {
     Walk walk{.p_WA = place(15.0), .p_WB = place(15.0), .step_m = {}};
     walk.step_m = 0.01 * (place(15.0) - walk.p_WB).normalized();
+    const bool begins_in_the_open = in_the_open(walk.p_WA);
     double before_db = obstacle_loss(channel, walk.p_WA, walk.p_WB).value;
+    std::vector<bool> was_inside = inside(boxes, walk.p_WB);
     for (int i = 0; i < 500; ++i) {
       const Eigen::Vector3d after = walk.p_WB + walk.step_m;
       const double after_db = obstacle_loss(channel, walk.p_WA, after).value;
       const double change_db = std::abs(after_db - before_db);
-      if (inside(boxes, walk.p_WB) == inside(boxes, after)) {
+      std::vector<bool> is_inside = inside(boxes, after);
+      if (was_inside == is_inside) {
         if (change_db > steepest_db) {
           steepest_db = change_db;
           steepest = walk;
         }
-        if (in_the_open(walk.p_WA) && in_the_open(after)) {
+        if (begins_in_the_open && in_the_open(after)) {
           steepest_in_the_open_db = std::max(steepest_in_the_open_db, change_db);
         }
       }
       walk.p_WB = after;
+      was_inside = std::move(is_inside);
       before_db = after_db;
     }
   }
@@ -292,7 +297,7 @@ TEST_CASE("walls are counted as a walk along the ray counts them") {
           last = room;
         }
       }
-      was_inside = is_inside;
+      was_inside = std::move(is_inside);
     }
 
     std::vector<Obstruction> found;
