@@ -130,6 +130,9 @@ std::string pbf_of(std::string_view block) {
   return pbf_block("OSMHeader", header) + pbf_block("OSMData", block);
 }
 
+/// Corners of cut pieces are rounded to 0.1 mm.
+constexpr double kSliver_m = 2e-4;
+
 void check(const City& city) {
   for (const Building& building : city.buildings) {
     must(!building.prisms.empty(), "a building has no prisms");
@@ -140,6 +143,13 @@ void check(const City& city) {
            "a footprint has no area, or is clockwise");
       for (const Ring& courtyard : prism.footprint.courtyards) {
         must(signed_area_m2(courtyard) < 0.0, "a courtyard is counter-clockwise");
+      }
+      const double edge_m = 2.0 * area_m2(prism.footprint) / mean_width_m(prism.footprint);
+      for (const Prism& other : building.prisms) {
+        const bool beside =
+            &other == &prism || other.bottom_m >= prism.top_m || other.top_m <= prism.bottom_m;
+        must(beside || overlap_m2(prism.footprint, other.footprint) < kSliver_m * edge_m,
+             "two prisms share volume");
       }
     }
   }

@@ -98,7 +98,7 @@ class OutlineIndex {
     for (const Footprint& a : part.footprints) {
       for (const Footprint& b : outline.footprints) {
         if (bounds_of(a).intersects(bounds_of(b))) {
-          sum_m2 += overlap_m2(a, b).value_or(0.0);
+          sum_m2 += overlap_m2(a, b);
         }
       }
     }
@@ -156,9 +156,6 @@ class Builder {
     for (const std::size_t hidden : united.hidden_parts) {
       const AreaRecord& part = *part_areas[hidden];
       report_.files[part.file].add(Problem::kHiddenPart, part.object);
-    }
-    if (!united.exact) {
-      file.add(Problem::kOverlapLeft, area.object);
     }
     for (Prism& prism : united.prisms) {
       prism.bottom_m += base_m;

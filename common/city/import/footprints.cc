@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/geometry/algorithms/area.hpp>
 #include <boost/geometry/algorithms/covered_by.hpp>
-#include <boost/geometry/algorithms/difference.hpp>
 #include <boost/geometry/algorithms/intersection.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/linestring.hpp>
@@ -12,21 +11,27 @@
 #include <boost/geometry/geometries/point_xy.hpp>
 #include <boost/geometry/geometries/polygon.hpp>
 #include <boost/geometry/strategies/strategies.hpp>
+#include <boost/polygon/polygon.hpp>
 #include <cmath>
+#include <iterator>
 
 namespace cuscus::city {
 namespace {
 
 namespace bg = boost::geometry;
+namespace gtl = boost::polygon;
 using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point, false, false>;  // counter-clockwise, open
 using MultiPolygon = bg::model::multi_polygon<Polygon>;
 using Line = bg::model::linestring<Point>;
 using BoostBox = bg::model::box<Point>;
 
-/// Where two operations disagree by less, they agree.
-constexpr double kAreaNoise_m2 = 1e-3;
-constexpr double kGrid_m = 1e-3;
+/// Overlays are worked out in whole steps of this: Boost.Polygon is exact on integers, where
+/// Boost.Geometry 1.74 gives wrong results that agree with one another, for edges that almost lie
+/// on one another.
+constexpr double kGrid_m = 1e-4;  // of 32 bits: 214 km to either side
+using Cells = gtl::polygon_set_data<int>;
+using CellPolygon = gtl::polygon_with_holes_data<int>;
 
 Polygon polygon_of(const Footprint& footprint) {
   Polygon polygon;
@@ -59,64 +64,48 @@ Footprint footprint_of(const Polygon& polygon) {
   return footprint;
 }
 
-Footprint on_grid(Footprint footprint) {
-  const auto snap = [](Ring& ring) {
-    for (auto& p : ring) {
-      p = (p / kGrid_m).array().round() * kGrid_m;
-    }
-  };
-  snap(footprint.outer);
-  std::ranges::for_each(footprint.courtyards, snap);
+gtl::polygon_data<int> cells_of(const Ring& ring) {
+  std::vector<gtl::point_data<int>> corners;
+  corners.reserve(ring.size());
+  for (const auto& p : ring) {
+    corners.emplace_back(static_cast<int>(std::lround(p.x() / kGrid_m)),
+                         static_cast<int>(std::lround(p.y() / kGrid_m)));
+  }
+  return {corners.begin(), corners.end()};
+}
+
+void insert(const Footprint& footprint, Cells& cells) {
+  cells.insert(cells_of(footprint.outer));
+  for (const Ring& courtyard : footprint.courtyards) {
+    cells.insert(cells_of(courtyard), true);
+  }
+}
+
+Cells cells_of(const Footprint& footprint) {
+  Cells cells;
+  insert(footprint, cells);
+  return cells;
+}
+
+template <typename Corners>
+Ring ring_of(const Corners& begin, const Corners& end) {
+  Ring ring;
+  for (auto corner = begin; corner != end; ++corner) {
+    ring.emplace_back((*corner).x() * kGrid_m, (*corner).y() * kGrid_m);
+  }
+  return ring;
+}
+
+Footprint footprint_of(const CellPolygon& polygon) {
+  Footprint footprint{.outer = ring_of(polygon.begin(), polygon.end()), .courtyards = {}};
+  for (auto hole = polygon.begin_holes(); hole != polygon.end_holes(); ++hole) {
+    footprint.courtyards.push_back(ring_of(hole->begin(), hole->end()));
+  }
   return footprint;
 }
 
-struct Overlay {
-  MultiPolygon rest;  ///< Of the one, beside the other.
-  double common_m2{0.0};
-};
-
-/// None: Boost.Geometry failed, or contradicts itself. 1.74 sometimes does, where edges almost lie
-/// on one another.
-std::optional<Overlay> overlay(const Footprint& one, const Footprint& other) {
-  try {
-    const Polygon from = polygon_of(one);
-    const Polygon what = polygon_of(other);
-    Overlay result;
-    MultiPolygon common;
-    bg::difference(from, what, result.rest);
-    bg::intersection(from, what, common);
-    result.common_m2 = bg::area(common);
-    const double expected_m2 = bg::area(from) - result.common_m2;
-    const bool agree =
-        std::abs(bg::area(result.rest) - expected_m2) < kAreaNoise_m2 + 1e-6 * bg::area(from);
-    return agree ? std::optional{std::move(result)} : std::nullopt;
-  } catch (const bg::exception&) {
-    return std::nullopt;
-  }
-}
-
-/// With a second attempt on rounded corners.
-std::optional<Overlay> careful_overlay(const Footprint& one, const Footprint& other) {
-  auto result = overlay(one, other);
-  return result ? std::move(result) : overlay(on_grid(one), on_grid(other));
-}
-
-/// None: cannot be known.
-std::optional<std::vector<Footprint>> difference(const Footprint& whole, const Footprint& other) {
-  const auto result = careful_overlay(whole, other);
-  if (!result) {
-    return std::nullopt;
-  }
-  if (result->common_m2 < kAreaNoise_m2) {
-    return std::vector{whole};
-  }
-  std::vector<Footprint> pieces;
-  for (const Polygon& piece : result->rest) {
-    if (auto usable = normalized(footprint_of(piece))) {
-      pieces.push_back(std::move(*usable));
-    }
-  }
-  return pieces;
+double area_m2(const Cells& cells) {
+  return static_cast<double>(gtl::area(cells)) * kGrid_m * kGrid_m;
 }
 
 double perimeter_m(const Ring& ring) {
@@ -180,21 +169,12 @@ bool holds_corners(const Footprint& outer, const Footprint& inner) {
   });
 }
 
-std::optional<double> overlap_m2(const Footprint& one, const Footprint& other) {
+double overlap_m2(const Footprint& one, const Footprint& other) {
   if (!bounds_of(one).intersects(bounds_of(other))) {
     return 0.0;
   }
-  try {
-    MultiPolygon common;
-    bg::intersection(polygon_of(one), polygon_of(other), common);
-    if (bg::area(common) < kAreaNoise_m2) {
-      return 0.0;
-    }
-  } catch (const bg::exception&) {
-    // Once more below.
-  }
-  const auto result = careful_overlay(one, other);
-  return result ? std::optional{result->common_m2} : std::nullopt;
+  using namespace gtl::operators;  // NOLINT(google-build-using-namespace): its set operators
+  return area_m2(Cells{cells_of(one) & cells_of(other)});
 }
 
 std::optional<Footprint> normalized(Footprint footprint) {
@@ -213,34 +193,30 @@ std::optional<Footprint> normalized(Footprint footprint) {
   return footprint;
 }
 
-Remainder subtract(const Footprint& whole, std::span<const Footprint* const> others,
-                   double thinnest_m) {
-  Remainder result{.pieces = {whole}};
-  bool cut = false;
+std::vector<Footprint> subtract(const Footprint& whole, std::span<const Footprint* const> others,
+                                double thinnest_m) {
+  const Eigen::AlignedBox2d box = bounds_of(whole);
+  Cells taken;
   for (const Footprint* other : others) {
-    const Eigen::AlignedBox2d box = bounds_of(*other);
-    std::vector<Footprint> left;
-    for (Footprint& piece : result.pieces) {
-      if (!box.intersects(bounds_of(piece))) {
-        left.push_back(std::move(piece));
-        continue;
-      }
-      const auto pieces = difference(piece, *other);
-      if (!pieces) {
-        result.exact = false;
-        left.push_back(std::move(piece));
-        continue;
-      }
-      cut = cut || pieces->size() != 1 || area_m2(pieces->front()) != area_m2(piece);
-      left.insert(left.end(), pieces->begin(), pieces->end());
+    if (box.intersects(bounds_of(*other))) {
+      insert(*other, taken);
     }
-    result.pieces = std::move(left);
   }
-  if (cut) {
-    std::erase_if(result.pieces,
-                  [&](const Footprint& piece) { return mean_width_m(piece) < thinnest_m; });
+  using namespace gtl::operators;  // NOLINT(google-build-using-namespace): its set operators
+  const Cells rest = cells_of(whole) - taken;
+  if (taken.empty() || area_m2(cells_of(whole)) - area_m2(rest) < kTouching_m2) {
+    return {whole};
   }
-  return result;
+  std::vector<CellPolygon> polygons;
+  rest.get(polygons);
+  std::vector<Footprint> pieces;
+  for (const CellPolygon& polygon : polygons) {
+    auto piece = normalized(footprint_of(polygon));
+    if (piece && mean_width_m(*piece) >= thinnest_m) {
+      pieces.push_back(std::move(*piece));
+    }
+  }
+  return pieces;
 }
 
 std::vector<Footprint> clip(const Footprint& footprint, const Eigen::AlignedBox2d& box) {

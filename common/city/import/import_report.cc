@@ -33,9 +33,6 @@ constexpr std::array<Description, kProblems> kDescriptions{{
     {Problem::kBadWidth, false, {"bad_width", "the street's width makes no sense"}},
     {Problem::kBadTreeSize, false, {"bad_tree_size", "the tree's or wood's size makes no sense"}},
     {Problem::kPartAlone, false, {"part_alone", "the part has no building: taken for one itself"}},
-    {Problem::kOverlapLeft,
-     false,
-     {"overlap_left", "its parts may share volume: they could not be cut apart"}},
 }};
 
 constexpr bool in_order() {

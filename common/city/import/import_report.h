@@ -44,9 +44,8 @@ enum class Problem : std::uint8_t {
   kBadWidth,
   kBadTreeSize,
   kPartAlone,
-  kOverlapLeft,
 };
-inline constexpr std::size_t kProblems = 19;
+inline constexpr std::size_t kProblems = 18;
 
 /// True when the object is not in the city, false when only a value of it was ignored.
 [[nodiscard]] bool leaves_out(Problem problem);

@@ -8,9 +8,6 @@
 namespace cuscus::city {
 namespace {
 
-/// Footprints that share less only touch: noise of their corners' last digits.
-constexpr double kTouching_m2 = 1e-3;
-
 bool overlap_in_height(const Prism& one, const Prism& other) {
   return one.bottom_m < other.top_m && other.bottom_m < one.top_m;
 }
@@ -21,8 +18,7 @@ std::vector<const Prism*> rivals_of(const Prism& prism, const std::vector<Prism>
   const Eigen::AlignedBox2d box = bounds_of(prism.footprint);
   for (const Prism& other : taken) {
     if (overlap_in_height(prism, other) && box.intersects(bounds_of(other.footprint)) &&
-        overlap_m2(prism.footprint, other.footprint).value_or(area_m2(other.footprint)) >
-            kTouching_m2) {
+        overlap_m2(prism.footprint, other.footprint) > kTouching_m2) {
       rivals.push_back(&other);
     }
   }
@@ -56,9 +52,7 @@ bool add_free(const Prism& prism, UnitedPrisms& united) {
         beside.push_back(&rival->footprint);
       }
     }
-    Remainder rest = subtract(prism.footprint, beside, kThinnestPiece_m);
-    united.exact = united.exact && rest.exact;
-    for (Footprint& piece : rest.pieces) {
+    for (Footprint& piece : subtract(prism.footprint, beside, kThinnestPiece_m)) {
       slab.footprint = std::move(piece);
       free.push_back(slab);
     }
@@ -88,9 +82,7 @@ UnitedPrisms unite_parts(const std::vector<Prism>& outlines, const std::vector<P
     covered.push_back(&part.footprint);
   }
   for (const Prism& outline : outlines) {
-    Remainder rest = subtract(outline.footprint, covered, kThinnestPiece_m);
-    united.exact = united.exact && rest.exact;
-    for (Footprint& piece : rest.pieces) {
+    for (Footprint& piece : subtract(outline.footprint, covered, kThinnestPiece_m)) {
       united.prisms.push_back(
           {.footprint = std::move(piece), .bottom_m = outline.bottom_m, .top_m = outline.top_m});
     }

@@ -14,7 +14,6 @@ inline constexpr double kThinnestPiece_m = 0.3;
 struct UnitedPrisms {
   std::vector<Prism> prisms;
   std::vector<std::size_t> hidden_parts;  ///< Of which nothing is left beside the others.
-  bool exact{true};  ///< False: an operation failed, and prisms may share volume.
 };
 
 /// One building's prisms without shared volume. Where parts cover the outline, they replace it from

@@ -32,7 +32,7 @@ double shared_volume_m3(const std::vector<Prism>& prisms) {
       const double height_m = std::min(prisms[i].top_m, prisms[j].top_m) -
                               std::max(prisms[i].bottom_m, prisms[j].bottom_m);
       if (height_m > 0.0) {
-        sum += height_m * overlap_m2(prisms[i].footprint, prisms[j].footprint).value();
+        sum += height_m * overlap_m2(prisms[i].footprint, prisms[j].footprint);
       }
     }
   }
@@ -149,7 +149,6 @@ TEST_CASE("the volume of random parts is that of their union, counted cell by ce
     const auto united = unite_parts({}, parts);
 
     CAPTURE(round);
-    CHECK(united.exact);
     CHECK(volume_m3(united.prisms) == Approx(expected_m3));
     CHECK(shared_volume_m3(united.prisms) == Approx(0.0).margin(1e-6));
   }
@@ -162,8 +161,8 @@ TEST_CASE("triangles that touch along a part of an edge share nothing") {
   const Footprint small{.outer = {{0.0, 11.0574}, {-27.8299, 22.1149}, {-9.2766, 3.6858}},
                         .courtyards = {}};
 
-  CHECK(overlap_m2(small, large).value_or(0.0) < 0.01);
-  CHECK(overlap_m2(large, small).value_or(0.0) < 0.01);
+  CHECK(overlap_m2(small, large) < 0.01);
+  CHECK(overlap_m2(large, small) < 0.01);
 }
 
 TEST_CASE("footprints come out open, without repeated corners, counter-clockwise") {
