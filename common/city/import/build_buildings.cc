@@ -254,10 +254,6 @@ class Builder {
   ImportReport& report_;
 };
 
-bool under_ground(const AreaRecord& area) {
-  return area.tags["location"] == "underground" || area.tags["layer"].starts_with('-');
-}
-
 std::vector<Shape> shapes_of(const std::vector<AreaRecord>& areas, AreaKind kind, const Site& site,
                              ImportReport& report) {
   std::vector<Shape> shapes;
@@ -266,7 +262,7 @@ std::vector<Shape> shapes_of(const std::vector<AreaRecord>& areas, AreaKind kind
       continue;
     }
     ++(kind == AreaKind::kPart ? report.figures.part_areas : report.figures.building_areas);
-    if (under_ground(area)) {
+    if (is_under_ground(area)) {
       report.files[area.file].add(Problem::kUnderGround, area.object);
       continue;
     }
@@ -278,6 +274,10 @@ std::vector<Shape> shapes_of(const std::vector<AreaRecord>& areas, AreaKind kind
 }
 
 }  // namespace
+
+bool is_under_ground(const AreaRecord& area) {
+  return area.tags["location"] == "underground" || area.tags["layer"].starts_with('-');
+}
 
 std::vector<Building> build_buildings(const std::vector<AreaRecord>& areas, const Site& site,
                                       ImportReport& report) {

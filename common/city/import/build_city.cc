@@ -42,10 +42,11 @@ void sort_records(OsmRecords& records, ImportReport& report) {
   });
 }
 
+/// Of those above the ground: stations and garages under it may reach far beyond.
 std::optional<GeoBox> box_of_buildings(const std::vector<AreaRecord>& areas) {
   std::optional<GeoBox> box;
   for (const AreaRecord& area : areas) {
-    if (area.kind == AreaKind::kWood) {
+    if (area.kind == AreaKind::kWood || is_under_ground(area)) {
       continue;
     }
     for (const GeoPolygon& polygon : area.polygons) {
@@ -65,6 +66,8 @@ std::string box_text(const GeoBox& box) {
                 box.east_deg, box.north_deg);
   return text;
 }
+
+constexpr const char* kNothingStands = "no building of those mapped stands above the ground";
 
 [[noreturn]] void refuse(const ImportReport& report, const std::string& cause) {
   std::string files;
@@ -160,6 +163,11 @@ std::vector<Footprint> footprints_of(const AreaRecord& area, const Site& site,
 City build_city(OsmRecords records, const ImportOptions& options, ImportReport& report) {
   sort_records(records, report);
   const auto built = box_of_buildings(records.areas);
+  if (!built && std::ranges::any_of(records.areas, [](const AreaRecord& area) {
+        return area.kind != AreaKind::kWood;
+      })) {
+    refuse(report, kNothingStands);
+  }
   if (!built) {
     const std::string where = options.bounds ? " in " + box_text(*options.bounds) : std::string{};
     refuse(report, "no buildings" + where +
@@ -194,7 +202,7 @@ City build_city(OsmRecords records, const ImportOptions& options, ImportReport& 
   city.trees = build_trees(records.trees, site, report);
   city.woods = build_woods(records.areas, site, report);
   if (city.buildings.empty()) {
-    refuse(report, "no building of those mapped stands above the ground");
+    refuse(report, kNothingStands);
   }
   Eigen::AlignedBox2d extent = box;
   for (const Building& building : city.buildings) {

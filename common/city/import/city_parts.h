@@ -31,6 +31,9 @@ struct Site {
 [[nodiscard]] std::vector<Footprint> footprints_of(const AreaRecord& area, const Site& site,
                                                    ImportReport& report);
 
+/// By its tags.
+[[nodiscard]] bool is_under_ground(const AreaRecord& area);
+
 /// `areas` by rising id: outlines and their parts become buildings.
 [[nodiscard]] std::vector<Building> build_buildings(const std::vector<AreaRecord>& areas,
                                                     const Site& site, ImportReport& report);

@@ -307,6 +307,12 @@ TEST_CASE("what lies under the ground is no building") {
 
   CHECK(built.city.buildings.size() == 1);
   CHECK(built.of(Problem::kUnderGround).count == 2);
+  // 1e-4 degrees of longitude; those left out reach five times as far.
+  CHECK(built.city.north_east_m.x() - built.city.south_west_m.x() == Approx(11.1).margin(0.1));
+
+  OsmText garage;
+  garage.box(1, 0, 0, 1, 1, house("location", "underground"));
+  CHECK_THROWS_WITH(build(garage), Contains("no building of those mapped stands above the ground"));
 }
 
 TEST_CASE("no city is made of nothing, nor of a country") {
