@@ -138,6 +138,10 @@ void LiveAir::run(std::int64_t start_monotonic_ns, LiveOwner& owner) {
   watch(wake_, owner.fd(), static_cast<std::uint32_t>(Wake::kOwner));
   posix::sleep_until_monotonic(start_ns_ - kFlush_ns);
   forget_the_past();
+  if (const std::int64_t late_ns = now_ns(); late_ns > 0) {
+    spdlog::warn("the air begins {:.1f} ms after the run: what was sent before is lost",
+                 static_cast<double>(late_ns) / kMillisecond);
+  }
   posix::sleep_until_monotonic(start_ns_);
   scheduler_ = posix::scheduling_class();
   slept_at_ = now_ns();

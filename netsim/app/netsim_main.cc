@@ -174,6 +174,22 @@ netsim::LiveSetup take_setup(ChildSession& session, const proto::RadioConfigurat
   return setup;
 }
 
+/// True when this process was given a processor and is pinned to it. Done before it says that it is
+/// ready: to lock memory means to read it all in, which takes longer than a run waits for its
+/// start.
+bool take_the_processor(const proto::RadioConfiguration& configuration) {
+  if (configuration.realtime_priority() > 0 &&
+      !posix::try_realtime_scheduling(configuration.realtime_priority())) {
+    spdlog::warn("SCHED_FIFO {} was refused: releases may be late",
+                 configuration.realtime_priority());
+  }
+  if (!posix::try_lock_memory()) {
+    spdlog::warn("memory could not be locked: page faults may delay releases");
+  }
+  // This thread alone: those that write files may go wherever there is room.
+  return configuration.has_processor() && posix::try_pin(configuration.processor());
+}
+
 void serve(ChildSession& session) {
   const proto::Configure configure = session.await_configuration();
   if (!configure.has_radio()) {
@@ -186,20 +202,10 @@ void serve(ChildSession& session) {
   const shm::FleetMemoryReader fleet{memories.fleet.bytes()};
   netsim::FleetPositions positions{fleet, static_cast<std::uint32_t>(configuration.nodes_size())};
   netsim::LiveAir air{std::move(setup), positions};
+  const bool pinned = take_the_processor(configuration);
   session.ready();
 
-  bool pinned = false;
   if (const auto start_ns = session.await_start()) {
-    if (configuration.realtime_priority() > 0 &&
-        !posix::try_realtime_scheduling(configuration.realtime_priority())) {
-      spdlog::warn("SCHED_FIFO {} was refused: releases may be late",
-                   configuration.realtime_priority());
-    }
-    // This thread alone: those that write files may go wherever there is room.
-    pinned = configuration.has_processor() && posix::try_pin(configuration.processor());
-    if (!posix::try_lock_memory()) {
-      spdlog::warn("memory could not be locked: page faults may delay releases");
-    }
     Session owner{session, fleet, air};
     air.run(*start_ns, owner);
   }
