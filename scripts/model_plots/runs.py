@@ -25,6 +25,11 @@ def air(*options):
     return table("cuscus-air", *options)[0]
 
 
+def scenario_air(path, *options):
+    """One line of the table of `cuscus air`."""
+    return table("cuscus", "air", path, *options)[0]
+
+
 def walk(standing, begin, end, step_m, *options):
     """The rows of cuscus-channel, as numbers."""
     places = [f"--{name}=" + ",".join(map(str, place))
