@@ -83,6 +83,8 @@ struct Geodetic {
 /// What stands and grows in an area. Everything in metres, ENU, in one frame; without terrain the
 /// ground is the plane z = 0.
 struct City {
+  /// Whose data they are, for everything that shows them; empty for what nobody has surveyed.
+  std::string attribution;
   Geodetic origin;
   Eigen::Vector2d south_west_m{Eigen::Vector2d::Zero()};
   Eigen::Vector2d north_east_m{Eigen::Vector2d::Zero()};

@@ -6,10 +6,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "common/city/export/json.h"
+#include "common/city/transfer/city_message.h"
 #include "common/log/log.h"
 #include "common/posix/check.h"
 #include "common/posix/monotonic_clock.h"
 #include "common/posix/resource_usage.h"
+#include "common/posix/shared_memory.h"
 
 namespace cuscus::gcs {
 namespace {
@@ -40,6 +43,16 @@ std::uint16_t checked_port(std::uint32_t port) {
   return static_cast<std::uint16_t>(port);
 }
 
+/// What stands around the fleet, as JSON: null when nothing does.
+std::string take_city(ipc::ChildSession& session) {
+  const auto memory = session.take_if_given(proto::Descriptors::KIND_CITY);
+  if (!memory) {
+    return "null";
+  }
+  const city::City city = city::from_bytes(posix::MemoryMapping::read_only(*memory).bytes());
+  return city::json_text(city, {.title = {}, .attribution = city.attribution});
+}
+
 }  // namespace
 
 GroundStation::GroundStation(ipc::ChildSession& session,
@@ -53,7 +66,7 @@ GroundStation::GroundStation(ipc::ChildSession& session,
                  [this](std::span<const std::byte> datagram) { fleet_.receive(datagram, now()); }} {
   if (auto listener = session.take_if_given(proto::Descriptors::KIND_PAGE_LISTENER)) {
     page_.emplace(
-        io_, std::move(*listener), [this] { return picture(); }, census_);
+        io_, std::move(*listener), [this] { return picture(); }, take_city(session), census_);
   }
 }
 

@@ -141,6 +141,9 @@ class PageServer::Connection {
     if (judgement.route == Route::kSnapshot) {
       return text_response(200, request.version(), "application/json", server_.source_());
     }
+    if (judgement.route == Route::kCity) {
+      return text_response(200, request.version(), "application/json", server_.city_);
+    }
     const auto file = find_web_file(judgement.path);
     if (!file) {
       return refusal(404, request.version());
@@ -232,8 +235,12 @@ class PageServer::Connection {
 };
 
 PageServer::PageServer(asio::io_context& io, posix::UniqueFd listener, PictureSource source,
-                       PageCensus& census, PageLimits limits)
-    : acceptor_{io}, source_{std::move(source)}, census_{census}, limits_{limits} {
+                       std::string city, PageCensus& census, PageLimits limits)
+    : acceptor_{io},
+      source_{std::move(source)},
+      city_{std::move(city)},
+      census_{census},
+      limits_{limits} {
   acceptor_.assign(asio::ip::tcp::v4(), listener.get());
   static_cast<void>(listener.release());
 }

@@ -31,7 +31,8 @@ struct PageCensus {
   std::uint64_t pictures_dropped{0};  ///< That a slow client did not get.
 };
 
-/// The operator's page: static files, /api/snapshot, and a WebSocket that carries pictures.
+/// The operator's page: static files, /api/snapshot, /api/city, and a WebSocket that carries
+/// pictures.
 ///
 /// Nothing is queued: a client that is still busy with one picture when the next one comes gets
 /// the one that is newest when it is done.
@@ -39,8 +40,8 @@ class PageServer {
  public:
   using PictureSource = std::function<std::string()>;
 
-  /// Takes over `listener`, a listening TCP socket.
-  PageServer(asio::io_context& io, posix::UniqueFd listener, PictureSource source,
+  /// Takes over `listener`, a listening TCP socket. `city` is JSON.
+  PageServer(asio::io_context& io, posix::UniqueFd listener, PictureSource source, std::string city,
              PageCensus& census, PageLimits limits = {});
 
   /// Accepts connections until end().
@@ -56,6 +57,7 @@ class PageServer {
 
   asio::ip::tcp::acceptor acceptor_;
   PictureSource source_;
+  std::string city_;
   PageCensus& census_;
   PageLimits limits_;
   std::string picture_;

@@ -58,7 +58,10 @@ Judgement judge(const RequestHead& request) {
   if (request.is_upgrade) {
     return answer(400);
   }
-  return answer(200, path == "/api/snapshot" ? Route::kSnapshot : Route::kFile);
+  if (path == "/api/snapshot") {
+    return answer(200, Route::kSnapshot);
+  }
+  return answer(200, path == "/api/city" ? Route::kCity : Route::kFile);
 }
 
 }  // namespace cuscus::gcs

@@ -17,7 +17,7 @@ struct RequestHead {
   bool is_upgrade;  ///< To WebSocket.
 };
 
-enum class Route { kFile, kSnapshot, kWebSocket };
+enum class Route { kFile, kSnapshot, kCity, kWebSocket };
 
 /// What to do with a request: `status` 200 (or 101 for the WebSocket) means to go on with `route`.
 struct Judgement {

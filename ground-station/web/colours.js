@@ -14,7 +14,8 @@ function parseHex(text) {
 export function readPalette() {
   const style = getComputedStyle(document.documentElement);
   const colour = (name) => style.getPropertyValue(`--${name}`).trim();
-  const names = ['plan', 'panel', 'grid', 'grid-strong', 'guide', 'text', 'muted', 'accent', 'fair', 'bad', 'idle'];
+  const names = ['plan', 'panel', 'grid', 'grid-strong', 'guide', 'text', 'muted', 'accent', 'fair', 'bad', 'idle',
+    'street', 'wood', 'tree', 'roof-low', 'roof-high', 'roof-edge'];
   const palette = Object.fromEntries(names.map((name) => [name, colour(name)]));
   palette.font = getComputedStyle(document.body).fontFamily;
   palette.levels = [];

@@ -1,5 +1,6 @@
 // Wires the page together: snapshots into the model, the model onto canvas and table.
 
+import { loadCity } from './city.js';
 import { connect } from './connection.js';
 import { FleetModel } from './model.js';
 import { FleetTable } from './table.js';
@@ -7,19 +8,24 @@ import { Viewport, listen } from './viewport.js';
 import { boundsOf, drawScene, pick } from './scene.js';
 import { drawLegend, readPalette } from './colours.js';
 import { showConnection, showRun } from './header.js';
+import { number } from './format.js';
 
 const element = (id) => document.getElementById(id);
 const seconds = () => performance.now() / 1000;
+
+const CITY_MARGIN_M = 30;  // of the streets around the fleet
 
 const canvas = element('plan');
 const context = canvas.getContext('2d', { alpha: false });
 const model = new FleetModel();
 const viewport = new Viewport();
-const options = { source: 'truth', links: true, trails: true, labels: true };
+const options = { source: 'truth', links: true, trails: true, labels: true, city: true };
 let palette = readPalette();
 let selected = null;
 let placed = [];
 let links = [];
+let city = null;
+let cityOfRun = null;
 let everLive = false;
 let lastFrame = seconds();
 let requested = false;
@@ -36,9 +42,10 @@ function frame() {
   const t = model.shownTime(now);
   placed = model.poses(options.source, t);
   const circle = model.snapshot?.circle;
-  const moving = viewport.follow(boundsOf(placed, circle), Math.min(0.1, now - lastFrame));
+  const moving = viewport.follow(boundsOf(placed, circle, city ? CITY_MARGIN_M : 0), Math.min(0.1, now - lastFrame));
   lastFrame = now;
-  const drawn = drawScene(context, viewport, palette, { placed, links, circle, t, options, selected });
+  const drawn = drawScene(context, viewport, palette,
+    { placed, links, circle, city, ratio: window.devicePixelRatio || 1, t, options, selected });
   canvas.dataset.drones = drawn.drones;
   canvas.dataset.links = drawn.links;
   canvas.dataset.places = JSON.stringify(drawn.places);
@@ -75,6 +82,7 @@ const actions = {
   'show-links': () => toggle('links'),
   'show-trails': () => toggle('trails'),
   'show-labels': () => toggle('labels'),
+  'show-city': () => toggle('city'),
   'zoom-in': () => viewport.zoom(1.4),
   'zoom-out': () => viewport.zoom(1 / 1.4),
   'zoom-fit': () => viewport.fit(),
@@ -91,6 +99,7 @@ const keys = {
   l: () => toggle('links'),
   r: () => toggle('trails'),
   n: () => toggle('labels'),
+  c: () => toggle('city'),
   '+': actions['zoom-in'],
   '=': actions['zoom-in'],
   '-': actions['zoom-out'],
@@ -123,6 +132,19 @@ showColours();
 
 listen(canvas, viewport, requestFrame, (x, y) => select(pick(viewport, placed, x, y)));
 
+/** Of each run anew: the next one on this port may fly elsewhere. */
+async function showCity(run) {
+  if (run === cityOfRun) return;
+  cityOfRun = run;
+  city = await loadCity().catch(() => null);  // the ground station has just gone
+  canvas.dataset.buildings = city?.buildings ?? 0;
+  for (const id of ['show-city', 'roofs']) element(id).hidden = !city;
+  element('attribution').hidden = !city?.attribution;
+  element('attribution').textContent = city?.attribution ? `Map data ${city.attribution}` : '';
+  if (city) [element('roofs-low').textContent, element('roofs-high').textContent] = city.heights.map((m) => number(m, 0));
+  requestFrame();
+}
+
 function showState(state, silence_s) {
   showConnection(model.ended ? 'ended' : state, everLive, silence_s);
   requestFrame();
@@ -133,6 +155,7 @@ connect((snapshot) => {
   model.apply(snapshot, seconds());
   links = model.links();
   showRun(snapshot);
+  showCity(snapshot.run.id);
   table.show(snapshot, options.source);
   showState('live');
 }, (state, silence_s) => {

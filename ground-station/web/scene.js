@@ -12,8 +12,8 @@ const PICK_PX = 18;
 const CROWD = 24;       // from this many nodes on, drones are drawn smaller
 const MANY_LINKS = 80;  // from this many on, links are fainter
 
-/** [west, south, east, north] of everything that should be in view. */
-export function boundsOf(placed, circle) {
+/** [west, south, east, north] of everything that should be in view, and `margin_m` around it. */
+export function boundsOf(placed, circle, margin_m) {
   const points = placed.filter((item) => item.pose).map((item) => item.pose.p);
   if (circle) {
     const { centre_m: c, radius_m: r } = circle;
@@ -22,7 +22,7 @@ export function boundsOf(placed, circle) {
   if (points.length === 0) return null;
   const xs = points.map((p) => p[0]);
   const ys = points.map((p) => p[1]);
-  return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+  return [Math.min(...xs) - margin_m, Math.min(...ys) - margin_m, Math.max(...xs) + margin_m, Math.max(...ys) + margin_m];
 }
 
 /** The node drawn nearest to a point of the canvas, or null. */
@@ -219,7 +219,7 @@ function drawLabel(context, palette, x, y, middle, item) {
  * Draws one frame. `placed` is FleetModel.poses(), `t` the sim time shown.
  * @return what was drawn: {drones, links} counted, and places: [[node, x, y]] on the canvas
  */
-export function drawScene(context, viewport, palette, { placed, links, circle, t, options, selected }) {
+export function drawScene(context, viewport, palette, { placed, links, circle, city, ratio, t, options, selected }) {
   context.fillStyle = palette.plan;
   context.fillRect(0, 0, viewport.width, viewport.height);
   if (!viewport.centre) return { drones: 0, links: 0, places: [] };
@@ -228,6 +228,7 @@ export function drawScene(context, viewport, palette, { placed, links, circle, t
   const colourOf = (item) => stateColour(palette, item.node.telemetry?.state);
 
   drawGrid(context, viewport, palette);
+  if (city && options.city) city.draw(context, viewport, palette, ratio);
   drawCircle(context, viewport, palette, circle);
   const linksDrawn = options.links ? drawLinks(context, viewport, palette, links, byNode, selected) : 0;
   if (options.trails) for (const item of seen) if (item.node.vehicle) drawTrail(context, viewport, item, colourOf(item), t);

@@ -11,6 +11,7 @@
 #include "common/city/import/import_city.h"
 #include "common/city/transfer/city_message.h"
 #include "common/posix/shared_memory.h"
+#include "orchestrator/app/city_commands.h"
 #include "orchestrator/app/exit_code.h"
 #include "orchestrator/app/print.h"
 
@@ -58,7 +59,7 @@ std::string load_city(const scenario::Scenario& scenario) {
   const scenario::CitySection& section = *scenario.city;
   const city::ImportOptions options = import_options(section, scenario.seed);
   try {
-    const city::ImportedCity imported =
+    city::ImportedCity imported =
         section.file ? city::import_city(std::span{&section.file->file, 1}, options)
                      : import_generated(*section.generated, options, scenario.seed);
     const city::CityFigures& figures = imported.report.figures;
@@ -66,6 +67,9 @@ std::string load_city(const scenario::Scenario& scenario) {
           figures.buildings, figures.tallest_m, figures.streets, figures.trees, figures.woods);
     for (const std::string& remark : imported.report.remarks) {
       spdlog::warn("city: {}", remark);
+    }
+    if (section.file) {
+      imported.city.attribution = labels_of({section.file->file}).attribution;
     }
     return city::to_message(imported.city).SerializeAsString();
   } catch (const city::CityFileError& error) {

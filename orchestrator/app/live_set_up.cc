@@ -185,7 +185,8 @@ void LiveRun::start_programs() {
                              .programs = settings_.programs,
                              .directory = settings_.directory,
                              .run_id = settings_.run_id,
-                             .page_listener = settings_.page_listener.get()},
+                             .page_listener = settings_.page_listener.get(),
+                             .city = settings_.city.get()},
       [] {});
   crew_->launch_own();
   await([&] { return crew_->not_ready() + " to be ready"; }, kReadyLimit,

@@ -212,6 +212,9 @@ void NodeCrew::configure(NodeProgram& program) {
     if (surroundings_.page_listener >= 0) {
       given.push_back({Descriptors::KIND_PAGE_LISTENER, 0, surroundings_.page_listener});
     }
+    if (surroundings_.city >= 0) {
+      given.push_back({Descriptors::KIND_CITY, 0, surroundings_.city});
+    }
     *configure.mutable_ground_station() = surroundings_.plan.ground_station.value();
     configure.mutable_ground_station()->set_run_id(surroundings_.run_id);
   }

@@ -48,6 +48,7 @@ class NodeCrew {
     const RunDirectory& directory;   ///< For one log per program.
     std::string run_id;
     int page_listener{-1};
+    int city{-1};
   };
 
   /// `on_change` is called whenever a query below may answer differently.

@@ -1,6 +1,7 @@
 // Plays the orchestrator, world, radio and fleet for a real cuscus-gcs, so that its page can be
 // looked at without privileges: page_harness --gcs <path> [--uavs N] [--duration-s S] [--failed
-// UAV]. UAV number --failed says that it is in failsafe.
+// UAV] [--blocks N] [--attribution TEXT]. UAV number --failed says that it is in failsafe; N blocks
+// of a city stand in rows from the corner (20 m, 20 m) on, whose data are those of TEXT.
 //
 // Prints {"url": ..., "gcs_pid": ...} once the page is up. Runs until standard input ends or says a
 // line; then stops the ground station and prints {"exit_code": ..., "stop_ms": ..., report}.
@@ -12,18 +13,22 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "common/city/transfer/city_message.h"
 #include "common/ipc/control_socket.h"
 #include "common/posix/check.h"
 #include "common/posix/monotonic_clock.h"
@@ -47,6 +52,8 @@ struct Options {
   std::uint32_t uavs{10};
   std::int64_t duration_s{60};
   std::optional<std::uint32_t> failed;
+  std::size_t blocks{0};
+  std::string attribution;
 };
 
 Options parse(int argc, char** argv) {
@@ -61,13 +68,18 @@ Options parse(int argc, char** argv) {
       options.duration_s = std::stol(argv[i + 1]);
     } else if (name == "--failed") {
       options.failed = static_cast<std::uint32_t>(std::stoul(argv[i + 1]));
+    } else if (name == "--blocks") {
+      options.blocks = std::stoul(argv[i + 1]);
+    } else if (name == "--attribution") {
+      options.attribution = argv[i + 1];
     } else {
       throw std::invalid_argument{"unknown option " + std::string{name}};
     }
   }
   if (options.gcs.empty()) {
     throw std::invalid_argument{
-        "usage: page_harness --gcs <path> [--uavs N] [--duration-s S] [--failed UAV]"};
+        "usage: page_harness --gcs <path> [--uavs N] [--duration-s S] [--failed UAV] "
+        "[--blocks N] [--attribution TEXT]"};
   }
   return options;
 }
@@ -286,6 +298,46 @@ void give(ipc::ControlSocket& socket, proto::Descriptors::Kind kind, int fd) {
   socket.send(envelope, std::array{fd});
 }
 
+/// Blocks of 12 m with a courtyard of 4 m, every 16 m, in rows of as many as there are rows; the
+/// height grows to the east.
+city::City city_of(const Options& options) {
+  constexpr double kFirst_m = 20.0;
+  constexpr double kPitch_m = 16.0;
+  const auto square = [](double west_m, double south_m, double side_m) {
+    return city::Ring{{west_m, south_m},
+                      {west_m + side_m, south_m},
+                      {west_m + side_m, south_m + side_m},
+                      {west_m, south_m + side_m}};
+  };
+  city::City city;
+  city.attribution = options.attribution;
+  const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(options.blocks)));
+  for (std::size_t block = 0; block < options.blocks; ++block) {
+    const auto column = static_cast<double>(block % side);
+    const double x_m = kFirst_m + kPitch_m * column;
+    const double y_m = kFirst_m + kPitch_m * static_cast<double>(block / side);
+    city::Ring courtyard = square(x_m + 4.0, y_m + 4.0, 4.0);
+    std::reverse(courtyard.begin(), courtyard.end());
+    city::Building building;
+    building.osm_id = static_cast<std::int64_t>(block) + 1;
+    building.prisms.push_back({.footprint = {square(x_m, y_m, 12.0), {std::move(courtyard)}},
+                               .bottom_m = 0.0,
+                               .top_m = 10.0 + column});
+    city.buildings.push_back(std::move(building));
+  }
+  const double end_m = kFirst_m + kPitch_m * static_cast<double>(side);
+  city.north_east_m = {end_m, end_m};
+  return city;
+}
+
+posix::UniqueFd memory_of(const city::City& city) {
+  const std::string message = city::to_message(city).SerializeAsString();
+  posix::UniqueFd fd = posix::create_shared_memory("city", message.size());
+  auto mapping = posix::MemoryMapping::read_write(fd);
+  std::memcpy(mapping.writable_bytes().data(), message.data(), message.size());
+  return fd;
+}
+
 proto::Envelope configuration(const Options& options, std::uint16_t telemetry_port) {
   proto::Envelope envelope;
   auto* const station = envelope.mutable_configure()->mutable_ground_station();
@@ -315,6 +367,9 @@ bool bring_up(Child& child, const Options& options, const Surroundings& surround
   give(child.socket(), proto::Descriptors::KIND_FLEET_MEMORY, surroundings.fleet_fd());
   give(child.socket(), proto::Descriptors::KIND_RADIO_MEMORY, surroundings.radio_fd());
   give(child.socket(), proto::Descriptors::KIND_PAGE_LISTENER, listener_fd);
+  if (options.blocks > 0) {
+    give(child.socket(), proto::Descriptors::KIND_CITY, memory_of(city_of(options)).get());
+  }
   child.socket().send(configuration(options, telemetry_port));
   const proto::Envelope answer = child.socket().receive().envelope;
   if (answer.has_failure()) {

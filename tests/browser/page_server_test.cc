@@ -41,7 +41,7 @@ class RunningServer {
                  ::getsockname(listener.get(), reinterpret_cast<sockaddr*>(&address), &size));
     port_ = ntohs(address.sin_port);
     server_.emplace(
-        io_, std::move(listener), [picture] { return picture; }, census_, limits);
+        io_, std::move(listener), [picture] { return picture; }, "null", census_, limits);
     asio::co_spawn(io_, server_->accept(), [](const std::exception_ptr&) {});
     thread_ = std::jthread{[this] { io_.run(); }};
   }

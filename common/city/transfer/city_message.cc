@@ -104,6 +104,7 @@ Terrain terrain_of(const proto::CityTerrain& message) {
 
 proto::CityModel to_message(const City& city) {
   proto::CityModel message;
+  message.set_attribution(city.attribution);
   message.set_latitude_deg(city.origin.latitude_deg);
   message.set_longitude_deg(city.origin.longitude_deg);
   message.set_height_m(city.origin.height_m);
@@ -140,6 +141,7 @@ proto::CityModel to_message(const City& city) {
 
 City from_message(const proto::CityModel& message) {
   City city;
+  city.attribution = message.attribution();
   city.origin = {.latitude_deg = message.latitude_deg(),
                  .longitude_deg = message.longitude_deg(),
                  .height_m = message.height_m()};

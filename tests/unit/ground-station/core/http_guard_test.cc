@@ -74,6 +74,8 @@ TEST_CASE("a WebSocket is for our own page and for programs that are no browser"
 
 TEST_CASE("paths are told apart without their query") {
   CHECK(judge(get("/api/snapshot?x=1")).route == Route::kSnapshot);
+  CHECK(judge(get("/api/city")).route == Route::kCity);
+  CHECK(judge(get("/api/city/")).route == Route::kFile);
   CHECK(judge(get("/main.js?v=2")).path == "/main.js");
   CHECK(judge(get("/")).route == Route::kFile);
   CHECK(judge(get("/ws/../main.js")).route == Route::kFile);

@@ -13,6 +13,7 @@ const Ring kCourtyard{{5, 5}, {5, 15}, {15, 15}, {15, 5}};
 
 City full_city() {
   City city;
+  city.attribution = "© OpenStreetMap contributors";
   city.origin = {.latitude_deg = 44.4949, .longitude_deg = 11.3426, .height_m = 54.0};
   city.south_west_m = {-300.0, -200.0};
   city.north_east_m = {300.0, 200.0};
@@ -43,6 +44,7 @@ TEST_CASE("A city arrives as it was sent") {
 
   const City got = from_bytes(std::as_bytes(std::span{bytes}));
 
+  CHECK(got.attribution == sent.attribution);
   CHECK(got.origin.latitude_deg == sent.origin.latitude_deg);
   CHECK(got.origin.longitude_deg == sent.origin.longitude_deg);
   CHECK(got.origin.height_m == sent.origin.height_m);
