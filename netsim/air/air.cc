@@ -116,6 +116,7 @@ Air::Air(const AirParameters& parameters, PositionSource& positions, AirListener
       errors_{make_error_model(parameters.error_model, parameters.more_error_models)},
       receiver_model_{receiver_parameters(parameters, *standard_), *errors_},
       channel_{parameters.channel},
+      links_{channel_, static_cast<std::uint32_t>(parameters.nodes.size())},
       antenna_{make_antenna(parameters.antenna)},
       floor_mw_{receiver_model_.noise_mw() / parameters.arrival_floor_below_noise.ratio()},
       reach_floor_mw_{floor_mw_ / channel_.greatest_frame_gain().ratio()},

@@ -16,6 +16,7 @@
 #include "netsim/channel/antenna.h"
 #include "netsim/channel/channel.h"
 #include "netsim/channel/disruption.h"
+#include "netsim/channel/link_terms.h"
 #include "netsim/kernel/event_queue.h"
 #include "netsim/kernel/slot_pool.h"
 #include "netsim/mac/mac.h"
@@ -270,6 +271,7 @@ class Air final : public FrameCarrier, private MacHost {
   std::unique_ptr<const ErrorModel> errors_;
   ReceiverModel receiver_model_;
   Channel channel_;
+  LinkTerms links_;
   std::unique_ptr<const Antenna> antenna_;  ///< Nothing: isotropic.
   std::optional<Disruption> disruption_;
   std::optional<Jamming> jamming_;

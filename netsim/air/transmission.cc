@@ -44,7 +44,7 @@ void Air::update_reach(std::uint32_t sender) {
                              : AntennaPose{.p_WB = positions[node], .q_WB = attitudes[node]};
   };
   for (Reach& reach : station.reach) {
-    const Decibel loss = channel_.static_loss(
+    const Decibel loss = links_.loss(
         Link::between(sender, positions[sender], reach.receiver, positions[reach.receiver]));
     DecibelMilliwatt received =
         radio.tx_power + radio.antenna_gain + radios_[reach.receiver].antenna_gain - loss;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -196,25 +197,50 @@ Obstruction BoxObstacles::crossed(const Body& body, const Eigen::Vector3d& p_OA,
   return result;
 }
 
-void BoxObstacles::find(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
-                        std::vector<Obstruction>& found) const {
-  const double length_m = (p_WB - p_WA).norm();
-  if (!(length_m > 0.0)) {
+void BoxObstacles::look_at(const Body& body, const Eigen::Vector3d& p_WA,
+                           const Eigen::Vector3d& p_WB, double zone_m,
+                           std::vector<Obstruction>& found) {
+  if (!may_matter(body, p_WA, p_WB, margin_m(p_WA, p_WB, zone_m, 0.0))) {
     return;
   }
-  // D² (1/d_A + 1/d_B) / 2 is least in the middle: D² 2 / length.
-  const double margin_m = std::sqrt(zone_m * length_m / 2.0);
+  const Eigen::Vector3d p_OA = body.box.in_box(p_WA);
+  const Eigen::Vector3d p_OB = body.box.in_box(p_WB);
+  if (const auto inside = body.box.crossing(p_OA, p_OB)) {
+    found.push_back(crossed(body, p_OA, p_OB, *inside));
+  } else if (const double clearance_m = clearance(body.box, p_OA, p_OB); clearance_m < zone_m) {
+    found.push_back({.clearance_m = clearance_m});
+  }
+}
+
+void BoxObstacles::find(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
+                        std::vector<Obstruction>& found) const {
+  if (!((p_WB - p_WA).norm() > 0.0)) {
+    return;
+  }
   for (const Body& body : bodies_) {
-    if (!may_matter(body, p_WA, p_WB, margin_m)) {
-      continue;
+    look_at(body, p_WA, p_WB, zone_m, found);
+  }
+}
+
+void BoxObstacles::look_around(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                               double zone_m, double slack_m, Nearby& nearby) const {
+  const double reach_m = margin_m(p_WA, p_WB, zone_m, slack_m) + slack_m;
+  nearby.bodies.clear();
+  for (std::uint32_t body = 0; body < bodies_.size(); ++body) {
+    if (may_matter(bodies_[body], p_WA, p_WB, reach_m)) {
+      nearby.bodies.push_back(body);
     }
-    const Eigen::Vector3d p_OA = body.box.in_box(p_WA);
-    const Eigen::Vector3d p_OB = body.box.in_box(p_WB);
-    if (const auto inside = body.box.crossing(p_OA, p_OB)) {
-      found.push_back(crossed(body, p_OA, p_OB, *inside));
-    } else if (const double clearance_m = clearance(body.box, p_OA, p_OB); clearance_m < zone_m) {
-      found.push_back({.clearance_m = clearance_m});
-    }
+  }
+}
+
+void BoxObstacles::find(const Nearby& nearby, const Eigen::Vector3d& p_WA,
+                        const Eigen::Vector3d& p_WB, double zone_m,
+                        std::vector<Obstruction>& found) const {
+  if (!((p_WB - p_WA).norm() > 0.0)) {
+    return;
+  }
+  for (const std::uint32_t body : nearby.bodies) {
+    look_at(bodies_[body], p_WA, p_WB, zone_m, found);
   }
 }
 

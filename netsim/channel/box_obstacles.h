@@ -28,6 +28,10 @@ class BoxObstacles final : public Obstacles {
 
   void find(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
             std::vector<Obstruction>& found) const override;
+  void look_around(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
+                   double slack_m, Nearby& nearby) const override;
+  void find(const Nearby& nearby, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+            double zone_m, std::vector<Obstruction>& found) const override;
 
  private:
   struct Body {
@@ -40,6 +44,9 @@ class BoxObstacles final : public Obstacles {
 
   [[nodiscard]] static bool may_matter(const Body& body, const Eigen::Vector3d& p_WA,
                                        const Eigen::Vector3d& p_WB, double margin_m);
+  /// Appends what the body does to the ray, if anything.
+  static void look_at(const Body& body, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                      double zone_m, std::vector<Obstruction>& found);
   [[nodiscard]] static Obstruction crossed(const Body& body, const Eigen::Vector3d& p_OA,
                                            const Eigen::Vector3d& p_OB, const Chord& inside);
 

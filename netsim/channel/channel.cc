@@ -201,11 +201,22 @@ std::vector<std::string> Channel::model_names() {
   return names;
 }
 
-StaticTerms Channel::static_terms(const Link& link) const {
+StaticTerms Channel::static_terms(const Link& link) const { return terms_of(link, nullptr); }
+
+StaticTerms Channel::static_terms(const Link& link, const Nearby& nearby) const {
+  return terms_of(link, &nearby);
+}
+
+void Channel::look_around(const Link& link, double slack_m, Nearby& nearby) const {
+  obstacles_->look_around(link.p_WL, link.p_WH, clear_zone_m(kSpeedOfLight_mps / carrier_hz_),
+                          slack_m, nearby);
+}
+
+StaticTerms Channel::terms_of(const Link& link, const Nearby* nearby) const {
   StaticTerms terms;
   terms.basic = path_loss_->loss({.p_WT = link.p_WL, .p_WR = link.p_WH, .carrier_hz = carrier_hz_});
   if (obstacles_) {
-    terms.obstacles = obstacle_terms_of(link);
+    terms.obstacles = obstacle_terms_of(link, nearby);
   }
   if (shadowing_) {
     terms.shadowing = shadowing_->loss(link);
@@ -213,7 +224,7 @@ StaticTerms Channel::static_terms(const Link& link) const {
   return terms;
 }
 
-ObstacleTerms Channel::obstacle_terms_of(const Link& link) const {
+ObstacleTerms Channel::obstacle_terms_of(const Link& link, const Nearby* nearby) const {
   // By their coordinates, so that the bits do not depend on how the nodes are numbered either.
   const Eigen::Vector3d* a = &link.p_WL;
   const Eigen::Vector3d* b = &link.p_WH;
@@ -221,12 +232,19 @@ ObstacleTerms Channel::obstacle_terms_of(const Link& link) const {
     std::swap(a, b);
   }
   const double wavelength_m = kSpeedOfLight_mps / carrier_hz_;
+  const double zone_m = clear_zone_m(wavelength_m);
   std::vector<Obstruction> found;
-  obstacles_->find(*a, *b, clear_zone_m(wavelength_m), found);
+  if (nearby != nullptr) {
+    obstacles_->find(*nearby, *a, *b, zone_m, found);
+  } else {
+    obstacles_->find(*a, *b, zone_m, found);
+  }
   ObstacleTerms terms;
   if (!counts_walls_) {
     terms = obstacle_terms(found, *a, *b, wavelength_m);
-    if (const double foliage_m = obstacles_->foliage_m(*a, *b); foliage_m > 0.0) {
+    const double foliage_m =
+        nearby != nullptr ? obstacles_->foliage_m(*nearby, *a, *b) : obstacles_->foliage_m(*a, *b);
+    if (foliage_m > 0.0) {
       terms.foliage = foliage_loss(foliage_m, carrier_hz_);
     }
     return terms;

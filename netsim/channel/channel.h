@@ -11,6 +11,7 @@
 #include "netsim/channel/fading.h"
 #include "netsim/channel/link.h"
 #include "netsim/channel/obstacle_loss.h"
+#include "netsim/channel/obstacles.h"
 #include "netsim/channel/path_loss.h"
 #include "netsim/channel/shadowing.h"
 #include "netsim/channel/two_ray.h"
@@ -113,6 +114,13 @@ class Channel {
 
   /// May be kept while nobody moves.
   [[nodiscard]] StaticTerms static_terms(const Link& link) const;
+  /// Whether anything may be in the way of a link.
+  [[nodiscard]] bool has_obstacles() const { return obstacles_ != nullptr; }
+  /// Replaces `nearby` by what may be in the way of links whose ends are at most `slack_m` from
+  /// this one's. There must be obstacles.
+  void look_around(const Link& link, double slack_m, Nearby& nearby) const;
+  /// The terms of such a link, without a search: the same to the bit.
+  [[nodiscard]] StaticTerms static_terms(const Link& link, const Nearby& nearby) const;
   [[nodiscard]] Decibel static_loss(const Link& link) const { return static_terms(link).sum(); }
 
   /// Whether frame_loss() is ever other than zero.
@@ -127,7 +135,8 @@ class Channel {
   [[nodiscard]] Decibel greatest_frame_gain() const;
 
  private:
-  [[nodiscard]] ObstacleTerms obstacle_terms_of(const Link& link) const;
+  [[nodiscard]] StaticTerms terms_of(const Link& link, const Nearby* nearby) const;
+  [[nodiscard]] ObstacleTerms obstacle_terms_of(const Link& link, const Nearby* nearby) const;
 
   double carrier_hz_;
   bool counts_walls_;  ///< Equation 1 of the paper.

@@ -1,6 +1,5 @@
 #include "netsim/channel/city_obstacles.h"
 
-#include <cmath>
 #include <utility>
 
 namespace cuscus::netsim {
@@ -37,16 +36,9 @@ Obstruction CityObstacles::crossed(const city::Crossing& crossing, const Eigen::
   return result;
 }
 
-void CityObstacles::find(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
-                         std::vector<Obstruction>& found) const {
-  const double length_m = (p_WB - p_WA).norm();
-  if (!(length_m > 0.0)) {
-    return;
-  }
-  // D² (1/d_A + 1/d_B) / 2 is least in the middle: D² 2 / length.
-  const double margin_m = std::sqrt(zone_m * length_m / 2.0);
-  std::vector<std::uint32_t> near;
-  geometry_->near(p_WA, p_WB, margin_m, near);
+void CityObstacles::look_at(std::span<const std::uint32_t> near, const Eigen::Vector3d& p_WA,
+                            const Eigen::Vector3d& p_WB, double zone_m,
+                            std::vector<Obstruction>& found) const {
   city::Crossings crossings;
   for (const std::uint32_t building : near) {
     if (geometry_->append_crossing(building, p_WA, p_WB, crossings)) {
@@ -58,8 +50,43 @@ void CityObstacles::find(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_W
   }
 }
 
+void CityObstacles::find(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
+                         std::vector<Obstruction>& found) const {
+  if (!((p_WB - p_WA).norm() > 0.0)) {
+    return;
+  }
+  std::vector<std::uint32_t> near;
+  geometry_->near(p_WA, p_WB, margin_m(p_WA, p_WB, zone_m, 0.0), near);
+  look_at(near, p_WA, p_WB, zone_m, found);
+}
+
 double CityObstacles::foliage_m(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB) const {
   return has_foliage_ ? geometry_->foliage_m(p_WA, p_WB) : 0.0;
+}
+
+void CityObstacles::look_around(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                                double zone_m, double slack_m, Nearby& nearby) const {
+  const double reach_m = margin_m(p_WA, p_WB, zone_m, slack_m) + slack_m;
+  geometry_->prisms_near(p_WA, p_WB, reach_m, nearby.bodies);
+  if (has_foliage_) {
+    geometry_->plants_near(p_WA, p_WB, slack_m, nearby.leaves);
+  }
+}
+
+void CityObstacles::find(const Nearby& nearby, const Eigen::Vector3d& p_WA,
+                         const Eigen::Vector3d& p_WB, double zone_m,
+                         std::vector<Obstruction>& found) const {
+  if (nearby.bodies.empty() || !((p_WB - p_WA).norm() > 0.0)) {
+    return;
+  }
+  std::vector<std::uint32_t> near;
+  geometry_->near(nearby.bodies, p_WA, p_WB, margin_m(p_WA, p_WB, zone_m, 0.0), near);
+  look_at(near, p_WA, p_WB, zone_m, found);
+}
+
+double CityObstacles::foliage_m(const Nearby& nearby, const Eigen::Vector3d& p_WA,
+                                const Eigen::Vector3d& p_WB) const {
+  return nearby.leaves.empty() ? 0.0 : geometry_->foliage_m(nearby.leaves, p_WA, p_WB);
 }
 
 }  // namespace cuscus::netsim

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "common/city/city.h"
@@ -21,8 +22,16 @@ class CityObstacles final : public Obstacles {
             std::vector<Obstruction>& found) const override;
   [[nodiscard]] double foliage_m(const Eigen::Vector3d& p_WA,
                                  const Eigen::Vector3d& p_WB) const override;
+  void look_around(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
+                   double slack_m, Nearby& nearby) const override;
+  void find(const Nearby& nearby, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+            double zone_m, std::vector<Obstruction>& found) const override;
+  [[nodiscard]] double foliage_m(const Nearby& nearby, const Eigen::Vector3d& p_WA,
+                                 const Eigen::Vector3d& p_WB) const override;
 
  private:
+  void look_at(std::span<const std::uint32_t> near, const Eigen::Vector3d& p_WA,
+               const Eigen::Vector3d& p_WB, double zone_m, std::vector<Obstruction>& found) const;
   [[nodiscard]] Obstruction crossed(const city::Crossing& crossing, const Eigen::Vector3d& p_WA,
                                     const Eigen::Vector3d& p_WB) const;
 

@@ -1,6 +1,7 @@
 #include "netsim/channel/obstacle_loss.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -19,8 +20,10 @@ struct Baseline {
 /// A body that is crossed, as a share of the power.
 struct Passage {
   const Obstruction* body;
-  double share;    ///< P.
-  double in_view;  ///< p₀ + (1 - p₀) U: of power that passes it together with others.
+  std::array<double, kWays> around;  ///< p(ν) of its own edge, by Way.
+  double share;                      ///< P.
+  double in_view;      ///< p₀ + (1 - p₀) U: of power that passes it together with others.
+  double beyond{1.0};  ///< Of power that passes those that turn more at B, one by one.
 };
 
 const double kGrazing = knife_edge_share(0.0);
@@ -38,42 +41,58 @@ double share_by(const Turn& turn, Way way, const Baseline& link) {
   const double longer = 2.0 * product / (1.0 - product);
   const double base_m = way == Way::kOver ? link.length_m : link.level_m;
   const double rise_m = way == Way::kOver ? 0.0 : link.rise_m;
-  const double bent_m = std::hypot(base_m * (1.0 + longer), rise_m);
+  const double level_m = base_m * (1.0 + longer);
+  const double bent_m = std::sqrt(level_m * level_m + rise_m * rise_m);
   const double detour_m = base_m * base_m * longer * (2.0 + longer) / (bent_m + link.length_m);
   return knife_edge_share(2.0 * std::sqrt(detour_m / link.wavelength_m));
 }
 
 Passage passage_of(const Obstruction& body, const Baseline& link) {
+  Passage passage{.body = &body, .around = {}, .share = 0.0, .in_view = 0.0};
   double unseen = 1.0;
   for (std::size_t way = 0; way < kWays; ++way) {
-    unseen *= 1.0 - share_by(body.turns[way], static_cast<Way>(way), link) / kGrazing;
+    passage.around[way] = share_by(body.turns[way], static_cast<Way>(way), link);
+    unseen *= 1.0 - passage.around[way] / kGrazing;
   }
   unseen = std::max(0.0, unseen);
   const double through = (-(body.outer_loss + body.inner_loss)).ratio();
-  return {.body = &body,
-          .share = unseen * through + kGrazing * (1.0 - unseen),
-          .in_view = kGrazing + (1.0 - kGrazing) * unseen};
+  passage.share = unseen * through + kGrazing * (1.0 - unseen);
+  passage.in_view = kGrazing + (1.0 - kGrazing) * unseen;
+  return passage;
 }
 
 /// The most that passes on one way by an edge that clears two bodies or more, the rest one by one.
-double together(const std::vector<Passage>& passages, Way way, const Baseline& link,
-                double already) {
-  const auto turn_of = [way](const Passage& p) {
-    return p.body->turns[static_cast<std::size_t>(way)];
-  };
+///
+/// An edge of Bullington's, by the turns of two of the bodies, clears those that turn no more at
+/// either end. So they are gone through in the order of their turns at B, for each turn at A. What
+/// passes an edge is no more than what passes the edges of what it clears: mostly that says enough.
+double together(std::vector<Passage>& passages, Way way, const Baseline& link, double already) {
+  const auto index = static_cast<std::size_t>(way);
+  const auto turn_of = [index](const Passage& p) -> const Turn& { return p.body->turns[index]; };
+  std::stable_sort(passages.begin(), passages.end(), [&](const Passage& x, const Passage& y) {
+    return turn_of(x).at_b < turn_of(y).at_b;
+  });
+  double beyond = 1.0;
+  for (auto p = passages.rbegin(); p != passages.rend(); ++p) {
+    p->beyond = beyond;
+    beyond *= p->share;
+  }
   double most = already;
   for (const Passage& a : passages) {
+    const double at_a = turn_of(a).at_a;
+    double around = kGrazing;
+    double passed = 1.0;
     for (const Passage& b : passages) {
-      const Turn turn{.at_a = turn_of(a).at_a, .at_b = turn_of(b).at_b};
-      double share = share_by(turn, way, link);
-      for (const Passage& p : passages) {
-        if (share <= most) {
-          break;
-        }
-        const Turn own = turn_of(p);
-        share *= own.at_a <= turn.at_a && own.at_b <= turn.at_b ? p.in_view : p.share;
+      if (turn_of(b).at_a > at_a) {
+        passed *= b.share;
+        continue;
       }
-      most = std::max(most, share);
+      passed *= b.in_view;
+      around = std::min(around, b.around[index]);
+      if (around * passed * b.beyond > most) {
+        const Turn edge{.at_a = at_a, .at_b = turn_of(b).at_b};
+        most = std::max(most, share_by(edge, way, link) * passed * b.beyond);
+      }
     }
   }
   return most;

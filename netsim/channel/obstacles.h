@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -43,6 +44,14 @@ struct Obstruction {
   double clearance_m{0.0};
 };
 
+/// What rays may meet whose ends stay about where they are: numbers that mean something to whom
+/// they come from.
+struct Nearby {
+  std::vector<std::uint32_t> bodies;
+  std::vector<std::uint32_t> leaves;
+  std::vector<Nearby> parts;  ///< Of several kinds of obstacles: one by one.
+};
+
 /// The bodies of a scenario, whatever they come from. Pure functions: may be shared by threads.
 class Obstacles {
  public:
@@ -57,6 +66,29 @@ class Obstacles {
                                          const Eigen::Vector3d& /*p_WB*/) const {
     return 0.0;
   }
+
+  /// Replaces `nearby` by what may matter to rays whose ends are at most `slack_m` from A and B.
+  virtual void look_around(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double zone_m,
+                           double slack_m, Nearby& nearby) const = 0;
+  /// find() and foliage_m() of such a ray, without a search: the same to the bit.
+  virtual void find(const Nearby& nearby, const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                    double zone_m, std::vector<Obstruction>& found) const = 0;
+  [[nodiscard]] virtual double foliage_m(const Nearby& /*nearby*/, const Eigen::Vector3d& /*p_WA*/,
+                                         const Eigen::Vector3d& /*p_WB*/) const {
+    return 0.0;
+  }
+
+ protected:
+  /// A body further than this from the direct ray clears it by `zone_m`, whichever the ray is whose
+  /// ends are at most `slack_m` from A and B.
+  [[nodiscard]] static double margin_m(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                                       double zone_m, double slack_m);
 };
+
+inline double Obstacles::margin_m(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                                  double zone_m, double slack_m) {
+  // D² (1/d_A + 1/d_B) / 2 is least in the middle: D² 2 / length.
+  return std::sqrt(zone_m * ((p_WB - p_WA).norm() + 2.0 * slack_m) / 2.0);
+}
 
 }  // namespace cuscus::netsim

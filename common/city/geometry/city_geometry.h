@@ -135,6 +135,17 @@ class CityGeometry final {
   /// included; also some that do not (their boxes do). By ascending index; replaces `buildings`.
   void near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double margin_m,
             std::vector<std::uint32_t>& buildings) const;
+  /// What near() and foliage_m() of segments may find whose ends are known to stay about where they
+  /// are: the prisms, or trees and woods, that come as near to this one as `margin_m`, each by a
+  /// number of its own. Some do not (their boxes do). Replaces `prisms` or `plants`.
+  void prisms_near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double margin_m,
+                   std::vector<std::uint32_t>& prisms) const;
+  void plants_near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double margin_m,
+                   std::vector<std::uint32_t>& plants) const;
+  /// near(), to the same buildings, where all prisms so near to the segment are among `prisms`.
+  void near(std::span<const std::uint32_t> prisms, const Eigen::Vector3d& p_WA,
+            const Eigen::Vector3d& p_WB, double margin_m,
+            std::vector<std::uint32_t>& buildings) const;
   /// The ways past a building that the segment crosses, both ends outside. Over: by its roofs'
   /// edges in the plane, as far as they are above the segment and of parts that the segment is
   /// above, in or below between its ends. Left and right: by the corners of those parts of its
@@ -149,6 +160,9 @@ class CityGeometry final {
   /// Length of the segment within crowns of trees and within woods (ITU-R P.833); where several
   /// overlap it counts once.
   [[nodiscard]] double foliage_m(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB) const;
+  /// The same to the bit, where all plants on the segment are among `plants`.
+  [[nodiscard]] double foliage_m(std::span<const std::uint32_t> plants, const Eigen::Vector3d& p_WA,
+                                 const Eigen::Vector3d& p_WB) const;
 
   // Flight and sensors: all bodies.
 

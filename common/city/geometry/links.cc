@@ -33,6 +33,43 @@ bool passes_by(const Box& box, const Eigen::Vector3d& start, const Eigen::Vector
   return begin <= end + 1e-9;
 }
 
+/// p(t) = start + t way, 0 <= t <= 1, and how far from it matters.
+struct Surroundings {
+  Eigen::Vector3d start;
+  Eigen::Vector3d way;
+  double margin_m;
+};
+
+/// The boxes that come as near to a segment, in ascending order; `wide` is `tree` with kWide_m
+/// around each.
+void boxes_near(const std::vector<Box>& boxes, const BoxTree& tree, const BoxTree& wide,
+                const Surroundings& asked, std::vector<std::uint32_t>& found) {
+  require_reach(asked.margin_m);
+  found.clear();
+  const auto consider = [&](std::uint32_t box) {
+    if (passes_by(boxes[box], asked.start, asked.way, asked.margin_m)) {
+      found.push_back(box);
+    }
+  };
+  if (asked.margin_m <= kWide_m) {
+    wide.along(asked.start, asked.way, consider);
+  } else {
+    tree.around(asked.start + 0.5 * asked.way, 0.5 * asked.way.norm() + asked.margin_m, consider);
+  }
+  std::sort(found.begin(), found.end());
+}
+
+/// The share of a segment that is in leaves.
+double share_of(Intervals& leaves) {
+  unite(leaves, 0.0);
+  cut_to_segment(leaves);
+  double share = 0.0;
+  for (const Interval& part : leaves) {
+    share += part.end - part.begin;
+  }
+  return share;
+}
+
 }  // namespace
 
 void CityGeometry::crossings(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
@@ -88,23 +125,42 @@ bool CityGeometry::blocked(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p
   });
 }
 
-void CityGeometry::near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double margin_m,
+void CityGeometry::prisms_near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                               double margin_m, std::vector<std::uint32_t>& prisms) const {
+  require_finite(p_WA, p_WB);
+  boxes_near(parts_->boxes, parts_->prisms, parts_->wide_prisms,
+             {.start = p_WA, .way = p_WB - p_WA, .margin_m = margin_m}, prisms);
+}
+
+void CityGeometry::plants_near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
+                               double margin_m, std::vector<std::uint32_t>& plants) const {
+  require_finite(p_WA, p_WB);
+  boxes_near(parts_->plant_boxes, parts_->plants, parts_->wide_plants,
+             {.start = p_WA, .way = p_WB - p_WA, .margin_m = margin_m}, plants);
+}
+
+void CityGeometry::near(std::span<const std::uint32_t> prisms, const Eigen::Vector3d& p_WA,
+                        const Eigen::Vector3d& p_WB, double margin_m,
                         std::vector<std::uint32_t>& buildings) const {
   require_finite(p_WA, p_WB);
   require_reach(margin_m);
   buildings.clear();
   const Eigen::Vector3d way = p_WB - p_WA;
-  const auto consider = [&](std::uint32_t place) {
-    if (passes_by(parts_->boxes[place], p_WA, way, margin_m)) {
-      buildings.push_back(parts_->places[place].building);
+  for (const std::uint32_t prism : prisms) {
+    const std::uint32_t building = parts_->places.at(prism).building;
+    if ((buildings.empty() || buildings.back() != building) &&
+        passes_by(parts_->boxes[prism], p_WA, way, margin_m)) {
+      buildings.push_back(building);
     }
-  };
-  if (margin_m <= kWide_m) {
-    parts_->wide_prisms.along(p_WA, way, consider);
-  } else {
-    parts_->prisms.around(p_WA + 0.5 * way, 0.5 * way.norm() + margin_m, consider);
   }
-  std::sort(buildings.begin(), buildings.end());
+}
+
+void CityGeometry::near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double margin_m,
+                        std::vector<std::uint32_t>& buildings) const {
+  prisms_near(p_WA, p_WB, margin_m, buildings);
+  for (std::uint32_t& place : buildings) {
+    place = parts_->places[place].building;
+  }
   buildings.erase(std::unique(buildings.begin(), buildings.end()), buildings.end());
 }
 
@@ -125,21 +181,23 @@ double CityGeometry::foliage_m(const Eigen::Vector3d& p_WA, const Eigen::Vector3
   const Segment segment{p_WA, p_WB};
   const Eigen::Vector3d way = segment.b - segment.a;
   Intervals leaves;
-  parts_->plants.along(segment.a, way, [&](std::uint32_t plant) {
-    if (plant >= parts_->trees.size()) {
-      const SolidShape& wood = parts_->woods[plant - parts_->trees.size()];
-      wood.prisms().front().append_inside(segment, leaves);
-    } else if (const auto inside = parts_->trees[plant].crown.inside(segment.a, way)) {
-      leaves.push_back(*inside);
+  parts_->plants.along(segment.a, way,
+                       [&](std::uint32_t plant) { parts_->append_leaves(plant, segment, leaves); });
+  return share_of(leaves) * way.norm();
+}
+
+double CityGeometry::foliage_m(std::span<const std::uint32_t> plants, const Eigen::Vector3d& p_WA,
+                               const Eigen::Vector3d& p_WB) const {
+  require_finite(p_WA, p_WB);
+  const Segment segment{p_WA, p_WB};
+  const Eigen::Vector3d way = segment.b - segment.a;
+  Intervals leaves;
+  for (const std::uint32_t plant : plants) {
+    if (passes_by(parts_->plant_boxes.at(plant), segment.a, way, 0.0)) {
+      parts_->append_leaves(plant, segment, leaves);
     }
-  });
-  unite(leaves, 0.0);
-  cut_to_segment(leaves);
-  double share = 0.0;
-  for (const Interval& part : leaves) {
-    share += part.end - part.begin;
   }
-  return share * way.norm();
+  return share_of(leaves) * way.norm();
 }
 
 }  // namespace cuscus::city

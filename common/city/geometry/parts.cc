@@ -28,10 +28,18 @@ Box around_both(const Box& a, const Box& b) {
   return {.low_m = a.low_m.cwiseMin(b.low_m), .high_m = a.high_m.cwiseMax(b.high_m)};
 }
 
+std::vector<Box> widened(std::vector<Box> boxes) {
+  for (Box& box : boxes) {
+    box.low_m.array() -= kWide_m;
+    box.high_m.array() += kWide_m;
+  }
+  return boxes;
+}
+
 }  // namespace
 
 CityGeometry::Parts::Parts(const City& city)
-    : ground{checked(city).terrain}, prisms{{}}, wide_prisms{{}}, plants{{}} {
+    : ground{checked(city).terrain}, prisms{{}}, wide_prisms{{}}, plants{{}}, wide_plants{{}} {
   for (const Building& building : city.buildings) {
     std::vector<PrismShape> shapes;
     for (const Prism& prism : building.prisms) {
@@ -45,7 +53,6 @@ CityGeometry::Parts::Parts(const City& city)
       places.push_back({.prism = &prism, .building = building});
     }
   }
-  std::vector<Box> plant_boxes;
   for (const Tree& tree : city.trees) {
     trees.emplace_back(tree);
     plant_boxes.push_back(around_both(trees.back().crown.box(), trees.back().trunk.box()));
@@ -57,12 +64,18 @@ CityGeometry::Parts::Parts(const City& city)
   }
   prisms = BoxTree{boxes};
   plants = BoxTree{plant_boxes};
-  std::vector<Box> wide = boxes;
-  for (Box& box : wide) {
-    box.low_m.array() -= kWide_m;
-    box.high_m.array() += kWide_m;
+  wide_prisms = BoxTree{widened(boxes)};
+  wide_plants = BoxTree{widened(plant_boxes)};
+}
+
+void CityGeometry::Parts::append_leaves(std::uint32_t plant, const Segment& segment,
+                                        Intervals& leaves) const {
+  if (plant >= trees.size()) {
+    const SolidShape& wood = woods[plant - trees.size()];
+    wood.prisms().front().append_inside(segment, leaves);
+  } else if (const auto inside = trees[plant].crown.inside(segment.a, segment.b - segment.a)) {
+    leaves.push_back(*inside);
   }
-  wide_prisms = BoxTree{wide};
 }
 
 }  // namespace cuscus::city

@@ -24,15 +24,20 @@ struct CityGeometry::Parts {
     std::uint32_t building;
   };
 
+  /// Where the segment's line is in leaves of a plant.
+  void append_leaves(std::uint32_t plant, const Segment& segment, Intervals& leaves) const;
+
   Ground ground;
   std::vector<SolidShape> buildings;
   std::vector<SolidShape> woods;
   std::vector<TreeShape> trees;
-  std::vector<Place> places;  ///< By building, then prism.
-  std::vector<Box> boxes;     ///< By place.
-  BoxTree prisms;             ///< By place.
-  BoxTree wide_prisms;        ///< The same, with kWide_m around each.
-  BoxTree plants;             ///< All trees, then all woods.
+  std::vector<Place> places;     ///< By building, then prism.
+  std::vector<Box> boxes;        ///< By place.
+  BoxTree prisms;                ///< By place.
+  BoxTree wide_prisms;           ///< The same, with kWide_m around each.
+  std::vector<Box> plant_boxes;  ///< By plant: all trees, then all woods.
+  BoxTree plants;                ///< By plant.
+  BoxTree wide_plants;           ///< The same, with kWide_m around each.
 };
 
 }  // namespace cuscus::city
