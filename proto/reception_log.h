@@ -14,7 +14,7 @@ namespace cuscus::logs {
 
 struct ReceptionLogHeader {
   static constexpr std::uint64_t kMagic = shm::magic_of("CUSRECEP");
-  static constexpr std::uint32_t kVersion = 1;  ///< Any change of what follows raises it.
+  static constexpr std::uint32_t kVersion = 2;  ///< Any change of what follows raises it.
 
   std::uint64_t magic;
   std::uint32_t version;
@@ -56,19 +56,21 @@ enum class Cause : std::uint8_t {
 };
 
 /// Why a frame arrived as strong as it did: power = tx_power + tx_antenna + rx_antenna - basic_loss
-/// - obstacle_loss - shadowing_loss - fading_loss, to the rounding of float. dBm, then dB.
+/// - obstacle_loss - foliage_loss - shadowing_loss - fading_loss, to the rounding of float. dBm,
+/// then dB.
 struct LinkBudget {
   float tx_power_dbm;
   float tx_antenna_db;
   float rx_antenna_db;
   float basic_loss_db;
-  float obstacle_loss_db;
+  float obstacle_loss_db;  ///< Of walls and what goes around them.
+  float foliage_loss_db;
   float shadowing_loss_db;
   float fading_loss_db;  ///< Of this PPDU: fading, and the paper's Psi.
 
   [[nodiscard]] float power_dbm() const {
     return tx_power_dbm + tx_antenna_db + rx_antenna_db - basic_loss_db - obstacle_loss_db -
-           shadowing_loss_db - fading_loss_db;
+           foliage_loss_db - shadowing_loss_db - fading_loss_db;
   }
 };
 
@@ -94,7 +96,6 @@ struct ReceptionLogRecord {
   float power_dbm;  ///< With which the air reckoned.
   float sinr_db;    ///< The worst that it was decided on; NaN where there was none.
   LinkBudget budget;
-  float reserved_end;
 };
 static_assert(sizeof(ReceptionLogRecord) == 96);
 

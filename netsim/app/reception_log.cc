@@ -113,6 +113,7 @@ ReceptionLog::ReceptionLog(posix::UniqueFd file, const AirParameters& parameters
                            std::span<const std::string> names, PositionSource& positions)
     : ideal_{parameters.mac == "ideal"},
       channel_{parameters.channel},
+      links_{channel_, static_cast<std::uint32_t>(parameters.nodes.size())},
       antenna_{make_antenna(parameters.antenna)},
       radios_{parameters.nodes},
       positions_{&positions},
@@ -133,7 +134,7 @@ void ReceptionLog::transmitted(const Ppdu& ppdu) {
   }
 }
 
-logs::LinkBudget ReceptionLog::budget(const Ppdu& ppdu, std::uint32_t receiver) const {
+logs::LinkBudget ReceptionLog::budget(const Ppdu& ppdu, std::uint32_t receiver) {
   const std::uint32_t sender = ppdu.frame.sender;
   if (ideal_) {
     logs::LinkBudget budget{};
@@ -142,7 +143,7 @@ logs::LinkBudget ReceptionLog::budget(const Ppdu& ppdu, std::uint32_t receiver) 
   }
   const auto& poses = poses_[ppdu.positions_version % kKeptVersions].nodes;
   const Link link = Link::between(sender, poses[sender].p_WB, receiver, poses[receiver].p_WB);
-  const StaticTerms terms = channel_.static_terms(link);
+  const StaticTerms terms = links_.of(link);
   const EndGains antennas =
       antenna_ ? gains_of_ends(*antenna_, poses[sender], poses[receiver]) : EndGains{};
   const Decibel fading = channel_.varies_per_frame()
@@ -155,7 +156,9 @@ logs::LinkBudget ReceptionLog::budget(const Ppdu& ppdu, std::uint32_t receiver) 
           .tx_antenna_db = as_float(radios_[sender].antenna_gain + antennas.at_a),
           .rx_antenna_db = as_float(radios_[receiver].antenna_gain + antennas.at_b),
           .basic_loss_db = as_float(terms.basic),
-          .obstacle_loss_db = as_float(terms.obstacles.sum()),
+          .obstacle_loss_db = as_float(terms.obstacles.outer_walls + terms.obstacles.inner_walls +
+                                       terms.obstacles.diffraction),
+          .foliage_loss_db = as_float(terms.obstacles.foliage),
           .shadowing_loss_db = as_float(terms.shadowing),
           .fading_loss_db = as_float(fading)};
 }

@@ -55,10 +55,11 @@ class ReceptionLog final : public AirMonitor {
   /// No PPDU lasts as long as this many changes of the positions, which come every millisecond.
   static constexpr std::size_t kKeptVersions = 64;
 
-  [[nodiscard]] logs::LinkBudget budget(const Ppdu& ppdu, std::uint32_t receiver) const;
+  [[nodiscard]] logs::LinkBudget budget(const Ppdu& ppdu, std::uint32_t receiver);
 
   bool ideal_;  ///< There is no channel: what is received has the sender's power.
   Channel channel_;
+  LinkTerms links_;
   std::unique_ptr<const Antenna> antenna_;  ///< Nothing: isotropic.
   std::vector<AirNode> radios_;
   PositionSource* positions_;

@@ -99,9 +99,13 @@ void append_budget(std::string& text, const ReceptionLogRecord& record) {
   const auto out = std::back_inserter(text);
   fmt::format_to(out,
                  "{:14}{:.2f} dBm = {:.2f} sent {:+.2f} {:+.2f} antennas {:+.2f} path {:+.2f} "
-                 "obstacles {:+.2f} shadowing {:+.2f} fading",
+                 "obstacles ",
                  "", record.power_dbm, b.tx_power_dbm, b.tx_antenna_db, b.rx_antenna_db,
-                 -b.basic_loss_db, -b.obstacle_loss_db, -b.shadowing_loss_db, -b.fading_loss_db);
+                 -b.basic_loss_db, -b.obstacle_loss_db);
+  if (b.foliage_loss_db != 0.0F) {
+    fmt::format_to(out, "{:+.2f} foliage ", -b.foliage_loss_db);
+  }
+  fmt::format_to(out, "{:+.2f} shadowing {:+.2f} fading", -b.shadowing_loss_db, -b.fading_loss_db);
   if (std::isfinite(record.sinr_db)) {
     fmt::format_to(out, "; SINR {:.2f} dB", record.sinr_db);
   }
@@ -160,22 +164,23 @@ std::string why_csv(std::span<const ReceptionLogRecord> records,
   std::string text =
       "time_s,frame,kind,to,bytes,rate_kbps,attempt,cause,interferer,sinr_db,power_dbm,"
       "tx_power_dbm,tx_antenna_db,rx_antenna_db,basic_loss_db,obstacle_loss_db,"
-      "shadowing_loss_db,fading_loss_db\n";
+      "foliage_loss_db,shadowing_loss_db,fading_loss_db\n";
   for (const ReceptionLogRecord& record : records) {
     const auto out = std::back_inserter(text);
     fmt::format_to(out, "{:.9f},{},{},{},{},",
                    static_cast<double>(record.begins_ns) * kNanosecond_s, record.frame,
                    name_of(record.ppdu_kind), destination_of(record, names), record.psdu_bytes);
     if (record.kind != RecordKind::kReception) {
-      fmt::format_to(out, ",{},{},,,,,,,,,,\n", record.attempt, text_of(record.cause).name);
+      fmt::format_to(out, ",{},{},,,,,,,,,,,\n", record.attempt, text_of(record.cause).name);
       continue;
     }
     const logs::LinkBudget& b = record.budget;
-    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{}\n", record.rate_kbps,
+    fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", record.rate_kbps,
                    record.attempt, text_of(record.cause).name, interferer_of(record, names),
                    field(record.sinr_db), field(record.power_dbm), field(b.tx_power_dbm),
                    field(b.tx_antenna_db), field(b.rx_antenna_db), field(b.basic_loss_db),
-                   field(b.obstacle_loss_db), field(b.shadowing_loss_db), field(b.fading_loss_db));
+                   field(b.obstacle_loss_db), field(b.foliage_loss_db), field(b.shadowing_loss_db),
+                   field(b.fading_loss_db));
   }
   return text;
 }

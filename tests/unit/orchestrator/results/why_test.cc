@@ -42,6 +42,7 @@ ReceptionLogRecord reception(std::uint64_t frame, std::int64_t begins_us, Cause 
                    .rx_antenna_db = 2.0F,
                    .basic_loss_db = 75.0F,
                    .obstacle_loss_db = 0.0F,
+                   .foliage_loss_db = 0.0F,
                    .shadowing_loss_db = 5.0F,
                    .fading_loss_db = -1.0F};
   return record;
@@ -145,6 +146,18 @@ TEST_CASE("the table names the collider and shows the budget term by term") {
   CHECK_THAT(table, Catch::Contains("(group)") && Catch::Contains("not sent: the queue was full"));
 }
 
+TEST_CASE("leaves on the way have a term of their own") {
+  auto leafy = reception(1, 1'500, Cause::kNoise);
+  leafy.budget.obstacle_loss_db = 6.25F;
+  leafy.budget.foliage_loss_db = 12.5F;
+
+  CHECK_THAT(why_table(std::vector{leafy}, kNames),
+             Catch::Contains("path -6.25 obstacles -12.50 foliage -5.00 shadowing"));
+  CHECK_THAT(why_csv(std::vector{leafy}, kNames),
+             Catch::Contains("obstacle_loss_db,foliage_loss_db,shadowing_loss_db,") &&
+                 Catch::Contains("75.0000,6.2500,12.5000,5.0000,-1.0000\n"));
+}
+
 TEST_CASE("CSV has a field per column, empty where there is nothing to say") {
   auto busy = reception(1, 1'500, Cause::kHalfDuplex);
   busy.sinr_db = std::numeric_limits<float>::quiet_NaN();
@@ -153,10 +166,10 @@ TEST_CASE("CSV has a field per column, empty where there is nothing to say") {
       why_csv(std::vector{busy, given_up(2, 1'600, 1, Cause::kRetryLimit)}, kNames);
 
   CHECK_THAT(csv, Catch::Contains("0.001500000,1,data,uav1,128,6000,1,half_duplex,,,-60.0000,"
-                                  "16.0000,1.0000,2.0000,75.0000,0.0000,5.0000,-1.0000\n"));
-  CHECK_THAT(csv, Catch::Contains("0.001600000,2,data,uav1,128,,0,retry_limit,,,,,,,,,,\n"));
-  // Three lines of 18 fields.
-  CHECK(std::count(csv.begin(), csv.end(), ',') == 3 * 17);
+                                  "16.0000,1.0000,2.0000,75.0000,0.0000,0.0000,5.0000,-1.0000\n"));
+  CHECK_THAT(csv, Catch::Contains("0.001600000,2,data,uav1,128,,0,retry_limit,,,,,,,,,,,\n"));
+  // Three lines of 19 fields.
+  CHECK(std::count(csv.begin(), csv.end(), ',') == 3 * 18);
 }
 
 TEST_CASE("what is no reception log is refused with its name") {
