@@ -6,13 +6,19 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <iterator>
 #include <numbers>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "common/city/import/import_city.h"
+#include "netsim/app/city_of_message.h"
 #include "netsim/channel/walk.h"
 
 namespace {
@@ -29,6 +35,7 @@ struct Options {
   double carrier_ghz{2.437};
   bool horizontal{false};
   std::vector<std::string> boxes;
+  std::string city;
   std::string antenna{"isotropic"};
   std::uint32_t seeds{1};
 };
@@ -100,6 +107,11 @@ void add_terms(CLI::App& app, Options& o) {
   app.add_option("--box", o.boxes,
                  "An obstacle: EAST,NORTH,LENGTH,WIDTH,HEIGHT,WALL_DB[,HEADING_DEG] [m]; may be "
                  "repeated");
+  app.add_option("--city", o.city,
+                 "Further obstacles: city.pb of a run directory, or a map of OpenStreetMap");
+  app.add_option("--walls", c.walls, "Of the city")
+      ->check(CLI::IsMember({"paper", "p2040"}))
+      ->capture_default_str();
   app.add_option("--shadowing", c.shadowing_db, "Standard deviation [dB]")->capture_default_str();
   app.add_option("--decorrelation", c.shadowing_decorrelation_m, "Of shadowing [m]")
       ->capture_default_str();
@@ -130,6 +142,26 @@ void add_walk(CLI::App& app, Options& o) {
       ->capture_default_str();
 }
 
+/// A run's city, or a map of OpenStreetMap with the import's defaults.
+void put_city(Options& o) {
+  const std::filesystem::path path{o.city};
+  if (path.extension() != ".pb") {
+    const city::ImportedCity imported = city::import_city(std::span{&path, 1}, {});
+    o.channel.city = obstacles_of(imported.city, o.channel);
+    return;
+  }
+  std::ifstream file{path, std::ios::binary};
+  const std::string bytes{std::istreambuf_iterator<char>{file}, {}};
+  if (!file) {
+    throw std::invalid_argument{"--city: '" + o.city + "' cannot be read"};
+  }
+  try {
+    netsim::put_city(std::as_bytes(std::span{bytes}), o.channel);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument{"--city: '" + o.city + "': " + error.what()};
+  }
+}
+
 void apply(Options& o) {
   o.channel.carrier_hz = o.carrier_ghz * 1e9;
   o.channel.polarisation = o.horizontal ? Polarisation::kHorizontal : Polarisation::kVertical;
@@ -142,17 +174,21 @@ void apply(Options& o) {
   for (const std::string& box : o.boxes) {
     o.channel.obstacles.push_back(box_of(box));
   }
+  if (!o.city.empty()) {
+    put_city(o);
+  }
 }
 
 void print(std::uint64_t seed, const WalkPoint& point) {
   const ObstacleTerms& obstacles = point.fixed.obstacles;
   fmt::print(
-      "{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},"
+      "{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},"
       "{:.4f},{:.4f},{:.4f}\n",
       seed, point.way_m, point.p_WM.x(), point.p_WM.y(), point.p_WM.z(), point.distance_m,
       point.fixed.basic.value, obstacles.outer_walls.value, obstacles.inner_walls.value,
-      obstacles.diffraction.value, point.fixed.shadowing.value, point.frame.variation.value,
-      point.frame.fading.value, point.antennas.value, point.loss().value);
+      obstacles.diffraction.value, obstacles.foliage.value, point.fixed.shadowing.value,
+      point.frame.variation.value, point.frame.fading.value, point.antennas.value,
+      point.loss().value);
 }
 
 int run(int argc, char** argv) {
@@ -171,7 +207,7 @@ int run(int argc, char** argv) {
     if (i == 0) {
       fmt::print(
           "seed,way_m,x_m,y_m,z_m,distance_m,basic_db,outer_walls_db,inner_walls_db,"
-          "diffraction_db,shadowing_db,variation_db,fading_db,antennas_db,loss_db\n");
+          "diffraction_db,foliage_db,shadowing_db,variation_db,fading_db,antennas_db,loss_db\n");
     }
     along(options.walk, channel, antenna.get(),
           [&](const WalkPoint& point) { print(parameters.seed, point); });

@@ -21,11 +21,15 @@ WallLosses walls_of(const ChannelParameters& channel) {
 
 }  // namespace
 
-void put_city(std::span<const std::byte> message, ChannelParameters& channel) {
+std::shared_ptr<const Obstacles> obstacles_of(const city::City& city,
+                                              const ChannelParameters& channel) {
   const WallLosses walls = walls_of(channel);
-  const city::City city = city::from_bytes(message);
-  channel.city =
-      std::make_shared<CityObstacles>(city, std::make_shared<city::CityGeometry>(city), walls);
+  return std::make_shared<CityObstacles>(city, std::make_shared<city::CityGeometry>(city), walls);
+}
+
+void put_city(std::span<const std::byte> message, ChannelParameters& channel) {
+  static_cast<void>(walls_of(channel));  // what is wrong with them comes first
+  channel.city = obstacles_of(city::from_bytes(message), channel);
 }
 
 }  // namespace cuscus::netsim

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "common/city/city.h"
 #include "netsim/channel/channel.h"
 
 namespace cuscus::netsim {
@@ -12,5 +13,9 @@ namespace cuscus::netsim {
 /// `channel.walls` says.
 /// @throws std::invalid_argument naming what is wrong with the message or the name of the walls.
 void put_city(std::span<const std::byte> message, ChannelParameters& channel);
+
+/// The same of a city that is there.
+[[nodiscard]] std::shared_ptr<const Obstacles> obstacles_of(const city::City& city,
+                                                            const ChannelParameters& channel);
 
 }  // namespace cuscus::netsim
