@@ -23,7 +23,7 @@ def curves(rows, x, style):
         if "expected_ci95" in rows[0]:
             parts.append(f"data using {select}:(column('expected')):(column('expected_ci95')) "
                          f"notitle with yerrorbars pointtype 7 pointsize 0.6 linecolor '{colour}'")
-        elif "expected" in rows[0]:
+        elif any(row.get("expected", "") != "" for row in rows if row["curve"] == curve):
             parts.append(f"data using {select}:(column('expected')) notitle with points "
                          f"pointtype 7 pointsize 0.6 linecolor '{colour}'")
     return "plot " + ", \\\n  ".join(parts)

@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/city/generate/generate.h"
