@@ -288,6 +288,14 @@ void check_obstacles(const Scenario& scenario, Problems& problems) {
   }
 }
 
+void check_site(const Scenario& scenario, Problems& problems) {
+  if (scenario.city && scenario.world.site) {
+    problems.add("/world/site",
+                 "is told by the city, which has coordinates of its own; allowed: no site beside a "
+                 "city");
+  }
+}
+
 /// Fills the placeholders in as the plan will, with addresses that only need to exist.
 void check_placeholders(const Scenario& scenario, Problems& problems) {
   const std::set<std::string> names = node_names(scenario);
@@ -337,6 +345,7 @@ void check_whole(const Scenario& scenario, Problems& problems) {
   check_tdma(scenario, problems);
   check_captures(scenario, problems);
   check_obstacles(scenario, problems);
+  check_site(scenario, problems);
 }
 
 }  // namespace cuscus::scenario

@@ -1,4 +1,5 @@
 #include "common/scenario/section_readers.h"
+#include "common/scenario/utc.h"
 
 namespace cuscus::scenario {
 
@@ -65,6 +66,36 @@ void read_motion_capture(const json* value, const std::string& path, World& worl
 
 }  // namespace
 
+namespace {
+
+std::chrono::sys_seconds read_epoch(ObjectReader& reader, std::chrono::sys_seconds fallback) {
+  constexpr std::size_t kLongestText_bytes = 64;
+  const std::string text = reader.text("epoch", format_utc(fallback), kLongestText_bytes);
+  const auto epoch = parse_utc(text);
+  if (!epoch) {
+    reader.problem("epoch", shown(text) +
+                                " is no time of 1980 ... 2099 in UTC; allowed: such as \"" +
+                                format_utc(fallback) + '"');
+  }
+  return epoch.value_or(fallback);
+}
+
+std::optional<city::Geodetic> read_site(const json* value, const std::string& path,
+                                        Problems& problems) {
+  if (value == nullptr) {
+    return std::nullopt;
+  }
+  city::Geodetic site = kDefaultSite;
+  ObjectReader reader{value, path, problems};
+  site.latitude_deg = reader.number("latitude", site.latitude_deg, {-90.0, 90.0});
+  site.longitude_deg = reader.number("longitude", site.longitude_deg, {-180.0, 180.0});
+  site.height_m = reader.quantity("height", site.height_m, {kLength, "-500 m", "9 km"});
+  reader.finish();
+  return site;
+}
+
+}  // namespace
+
 World read_world(const json* value, Problems& problems) {
   World world;
   ObjectReader reader{value, "/world", problems};
@@ -74,6 +105,8 @@ World read_world(const json* value, Problems& problems) {
   read_imu(reader.child("imu"), reader.path_of("imu"), world, problems);
   read_motion_capture(reader.child("motion_capture"), reader.path_of("motion_capture"), world,
                       problems);
+  world.epoch = read_epoch(reader, world.epoch);
+  world.site = read_site(reader.child("site"), reader.path_of("site"), problems);
   reader.finish();
   if (problems.empty()) {
     const auto check_multiple = [&](const std::string& path, Duration period) {

@@ -86,12 +86,32 @@ std::optional<LidarSensor> read_lidar(const json* value, const std::string& path
   return lidar;
 }
 
+std::optional<GnssSensor> read_gnss(const json* value, const std::string& path,
+                                    Problems& problems) {
+  if (value == nullptr ||
+      is_none(value, path, "rate, mask, drift, correlation_time, noise and rate_noise", problems)) {
+    return std::nullopt;
+  }
+  GnssSensor gnss;
+  ObjectReader reader{value, path, problems};
+  gnss.period = reader.period_of_rate("rate", gnss.period, "1 Hz", "50 Hz");
+  gnss.mask_rad = reader.quantity("mask", gnss.mask_rad, {kAngle, "0 deg", "60 deg"});
+  gnss.drift_m = reader.quantity("drift", gnss.drift_m, {kLength, "0 m", "1 km"});
+  gnss.correlation_time = reader.duration("correlation_time", gnss.correlation_time, "1 s", "24 h");
+  gnss.noise_m = reader.quantity("noise", gnss.noise_m, {kLength, "0 m", "1 km"});
+  gnss.rate_noise_mps =
+      reader.quantity("rate_noise", gnss.rate_noise_mps, {kSpeed, "0 m/s", "100 m/s"});
+  reader.finish();
+  return gnss;
+}
+
 VehicleSensors read_sensors(const json* value, const std::string& path, Problems& problems) {
   VehicleSensors sensors;
   ObjectReader reader{value, path, problems};
   sensors.ultrasonic =
       read_ultrasonic(reader.child("ultrasonic"), reader.path_of("ultrasonic"), problems);
   sensors.lidar = read_lidar(reader.child("lidar"), reader.path_of("lidar"), problems);
+  sensors.gnss = read_gnss(reader.child("gnss"), reader.path_of("gnss"), problems);
   reader.finish();
   return sensors;
 }

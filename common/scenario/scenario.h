@@ -272,6 +272,10 @@ struct Network {
   bool monitor{false};  ///< mon0 is up from the start.
 };
 
+/// Compiegne, where FL-AIR is at home.
+inline constexpr city::Geodetic kDefaultSite{
+    .latitude_deg = 49.4, .longitude_deg = 2.8, .height_m = 40.0};
+
 struct World {
   Duration step{std::chrono::milliseconds{1}};
   double gravity_mps2{9.81};
@@ -282,6 +286,11 @@ struct World {
   Duration motion_capture_period{std::chrono::milliseconds{10}};
   double motion_capture_noise_m{0.0002};
   double motion_capture_noise_rad{0.001};
+  /// When the run begins, for the satellites of GNSS.
+  std::chrono::sys_seconds epoch{std::chrono::sys_days{std::chrono::year{2026} / 1 / 1} +
+                                 std::chrono::hours{12}};
+  /// Where on Earth the origin is; nothing: where the city is, else kDefaultSite.
+  std::optional<city::Geodetic> site;
 };
 
 /// A position in the world frame W: ENU, z = 0 on the ground [m].

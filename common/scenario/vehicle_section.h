@@ -42,10 +42,21 @@ struct LidarSensor {
   double noise_m{0.02};                   ///< Standard deviation per ray.
 };
 
+/// A receiver of satellite navigation; noises are standard deviations of one satellite's.
+struct GnssSensor {
+  SimClock::duration period{std::chrono::milliseconds{200}};
+  double mask_rad{0.08726646259971647};  ///< Least elevation of a satellite: 5 degrees.
+  double drift_m{2.5};                   ///< Of a range's slow error.
+  SimClock::duration correlation_time{std::chrono::seconds{100}};  ///< Of that.
+  double noise_m{0.5};                                             ///< Of a range's white error.
+  double rate_noise_mps{0.05};
+};
+
 /// What a vehicle has besides IMU and motion capture.
 struct VehicleSensors {
   std::optional<UltrasonicSensor> ultrasonic;
   std::optional<LidarSensor> lidar;
+  std::optional<GnssSensor> gnss;
 };
 
 /// FL-AIR's quadrotor; defaults are the ones of its simulator_x4.xml.

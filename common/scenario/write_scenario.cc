@@ -3,6 +3,7 @@
 #include "common/scenario/names.h"
 #include "common/scenario/scenario.h"
 #include "common/scenario/units.h"
+#include "common/scenario/utc.h"
 
 namespace cuscus::scenario {
 namespace {
@@ -261,7 +262,7 @@ Json json_of(const std::optional<CitySection>& city) {
 }
 
 Json json_of(const World& world) {
-  return {
+  Json object{
       {"step", text(world.step)},
       {"gravity", format_quantity(world.gravity_mps2, kAcceleration)},
       {"imu",
@@ -271,7 +272,14 @@ Json json_of(const World& world) {
       {"motion_capture",
        {{"rate", rate_text(world.motion_capture_period)},
         {"position_noise", format_quantity(world.motion_capture_noise_m, kLength)},
-        {"attitude_noise", format_quantity(world.motion_capture_noise_rad, kAngle)}}}};
+        {"attitude_noise", format_quantity(world.motion_capture_noise_rad, kAngle)}}},
+      {"epoch", format_utc(world.epoch)}};
+  if (world.site) {
+    object["site"] = {{"latitude", world.site->latitude_deg},
+                      {"longitude", world.site->longitude_deg},
+                      {"height", format_quantity(world.site->height_m, kLength)}};
+  }
+  return object;
 }
 
 Json json_of(const FixedVehicle& /*vehicle*/) { return {{"model", "fixed"}}; }
@@ -303,6 +311,18 @@ Json json_of(const std::optional<LidarSensor>& lidar) {
           {"noise", format_quantity(lidar->noise_m, kLength)}};
 }
 
+Json json_of(const std::optional<GnssSensor>& gnss) {
+  if (!gnss) {
+    return "none";
+  }
+  return {{"rate", rate_text(gnss->period)},
+          {"mask", format_quantity(gnss->mask_rad, kAngle)},
+          {"drift", format_quantity(gnss->drift_m, kLength)},
+          {"correlation_time", text(gnss->correlation_time)},
+          {"noise", format_quantity(gnss->noise_m, kLength)},
+          {"rate_noise", format_quantity(gnss->rate_noise_mps, kSpeed)}};
+}
+
 Json json_of(const X4Vehicle& x4) {
   return {{"model", "x4"},
           {"mass", format_quantity(x4.mass_kg, kMass)},
@@ -321,7 +341,9 @@ Json json_of(const X4Vehicle& x4) {
             {"restitution", x4.collision.restitution},
             {"radius", format_quantity(x4.collision.radius_m, kLength)}}},
           {"sensors",
-           {{"ultrasonic", json_of(x4.sensors.ultrasonic)}, {"lidar", json_of(x4.sensors.lidar)}}}};
+           {{"ultrasonic", json_of(x4.sensors.ultrasonic)},
+            {"lidar", json_of(x4.sensors.lidar)},
+            {"gnss", json_of(x4.sensors.gnss)}}}};
 }
 
 Json json_of(const CircleLayout& circle) {

@@ -121,6 +121,15 @@ void add_sensors(const scenario::VehicleSensors& from, proto::WorldNode& node) {
     lidar.set_range_m(from.lidar->range_m);
     lidar.set_noise_m(from.lidar->noise_m);
   }
+  if (from.gnss) {
+    proto::GnssConfiguration& gnss = *node.mutable_gnss();
+    gnss.set_period_ns(from.gnss->period.count());
+    gnss.set_mask_rad(from.gnss->mask_rad);
+    gnss.set_drift_m(from.gnss->drift_m);
+    gnss.set_correlation_time_ns(from.gnss->correlation_time.count());
+    gnss.set_noise_m(from.gnss->noise_m);
+    gnss.set_rate_noise_mps(from.gnss->rate_noise_mps);
+  }
 }
 
 proto::CircleMission mission_of(const scenario::CircleMission& circle) {
@@ -354,6 +363,11 @@ class Planner {
     world.set_motion_capture_noise_m(scenario_.world.motion_capture_noise_m);
     world.set_motion_capture_noise_rad(scenario_.world.motion_capture_noise_rad);
     world.set_realtime_priority(priority(scenario_, kWorldPriority));
+    const city::Geodetic site = scenario_.world.site.value_or(scenario::kDefaultSite);
+    world.mutable_site()->set_latitude_deg(site.latitude_deg);
+    world.mutable_site()->set_longitude_deg(site.longitude_deg);
+    world.mutable_site()->set_height_m(site.height_m);
+    world.set_epoch_unix_s(scenario_.world.epoch.time_since_epoch().count());
     std::size_t next = 0;
     for (const Group& group : scenario_.fleet) {
       const auto* x4 = std::get_if<scenario::X4Vehicle>(&group.vehicle);

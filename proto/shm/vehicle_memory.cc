@@ -20,6 +20,10 @@ void SensorMemoryWriter::publish(const UltrasonicReading& reading) noexcept {
   layout_->ultrasonic.store(reading);
 }
 
+void SensorMemoryWriter::publish(const GnssReading& reading) noexcept {
+  layout_->gnss.store(reading);
+}
+
 void SensorMemoryWriter::publish(const LidarScan& scan) noexcept {
   assert(lidar_ != nullptr);
   lidar_->scan.store(scan);
@@ -43,6 +47,11 @@ SensorMemoryReader::SensorMemoryReader(std::span<const std::byte> memory)
 
 std::optional<UltrasonicReading> SensorMemoryReader::ultrasonic() const noexcept {
   const auto reading = layout_->ultrasonic.load();
+  return reading && reading->sequence != 0 ? reading : std::nullopt;
+}
+
+std::optional<GnssReading> SensorMemoryReader::gnss() const noexcept {
+  const auto reading = layout_->gnss.load();
   return reading && reading->sequence != 0 ? reading : std::nullopt;
 }
 

@@ -50,16 +50,33 @@ struct LidarScan {
   std::array<float, kMaxLidarRays> range_m;        ///< Row by row; infinite: nothing in range.
 };
 
+/// What the receiver of satellite navigation says.
+struct GnssReading {
+  std::int64_t sim_time_ns;
+  std::uint64_t sequence;            ///< From 1; 0 means none yet.
+  std::uint32_t satellites_in_view;  ///< Above the receiver's mask.
+  std::uint32_t satellites_received;
+  std::uint64_t has_fix;  ///< 0 or 1; without a fix all that follows is 0.
+  std::array<double, 3> p_WB_m;
+  std::array<double, 3> v_WB_W_mps;
+  double latitude_deg;  ///< WGS-84.
+  double longitude_deg;
+  double height_m;  ///< Above the ellipsoid.
+  double hdop;
+  double vdop;
+};
+
 /// Sensors of one vehicle: the world writes, the vehicle's agent reads. Of a vehicle with a lidar,
 /// LidarMemoryLayout follows.
 struct SensorMemoryLayout {
   static constexpr std::uint64_t kMagic = magic_of("CUSSENSE");
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 3;
 
   Header header;
   alignas(kCacheLine) Seqlock<MotionCaptureReading> motion_capture;
   alignas(kCacheLine) Seqlock<ImuReading> imu;
   alignas(kCacheLine) Seqlock<UltrasonicReading> ultrasonic;
+  alignas(kCacheLine) Seqlock<GnssReading> gnss;
 };
 
 struct LidarMemoryLayout {
@@ -77,6 +94,7 @@ class SensorMemoryWriter {
   void publish(const MotionCaptureReading& reading) noexcept;
   void publish(const ImuReading& reading) noexcept;
   void publish(const UltrasonicReading& reading) noexcept;
+  void publish(const GnssReading& reading) noexcept;
   /// Of a vehicle with a lidar.
   void publish(const LidarScan& scan) noexcept;
 
@@ -94,6 +112,7 @@ class SensorMemoryReader {
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture() const noexcept;
   [[nodiscard]] std::optional<ImuReading> imu() const noexcept;
   [[nodiscard]] std::optional<UltrasonicReading> ultrasonic() const noexcept;
+  [[nodiscard]] std::optional<GnssReading> gnss() const noexcept;
   /// Nothing of a vehicle without one, either.
   [[nodiscard]] std::optional<LidarScan> lidar() const noexcept;
 

@@ -47,6 +47,25 @@ struct LidarScan {
   std::vector<float> ranges_m;  ///< Infinite: no surface in range.
 };
 
+/// What a receiver of satellite navigation has worked out. World frame W: ENU.
+struct GnssFix {
+  Eigen::Vector3d p_WB_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_WB_W_mps = Eigen::Vector3d::Zero();
+  double latitude_deg = 0.0;  ///< WGS-84; the same position.
+  double longitude_deg = 0.0;
+  double height_m = 0.0;  ///< Above the ellipsoid.
+  double hdop = 0.0;
+  double vdop = 0.0;
+};
+
+struct GnssReading {
+  SimTime time;
+  std::uint64_t sequence = 0;
+  std::uint32_t satellites_in_view = 0;   ///< Above the receiver's mask, hidden ones included.
+  std::uint32_t satellites_received = 0;  ///< Of these; all of them make the fix.
+  std::optional<GnssFix> fix;             ///< Nothing: too few, or in too bad a geometry.
+};
+
 /// Commands of an X4's motors, 0 ... 1: front left, front right, rear left, rear right.
 using MotorCommands = std::array<double, 4>;
 

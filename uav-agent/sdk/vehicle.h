@@ -10,6 +10,8 @@
 
 namespace cuscus::sdk {
 
+using flight::GnssFix;
+using flight::GnssReading;
 using flight::ImuReading;
 using flight::LidarScan;
 using flight::MotionCaptureReading;
@@ -33,9 +35,10 @@ class Sensors {
   [[nodiscard]] virtual std::optional<ImuReading> imu() const = 0;
   /// Of this vehicle.
   [[nodiscard]] virtual std::optional<MotionCaptureReading> motion_capture() const = 0;
-  /// Nothing ever of a vehicle that has none; likewise lidar().
+  /// Nothing ever of a vehicle that has none; likewise lidar() and gnss().
   [[nodiscard]] virtual std::optional<UltrasonicReading> ultrasonic() const { return {}; }
   [[nodiscard]] virtual std::optional<LidarScan> lidar() const { return {}; }
+  [[nodiscard]] virtual std::optional<GnssReading> gnss() const { return {}; }
 };
 
 /// The motion-capture system's view of all vehicles, where there is one to listen to.

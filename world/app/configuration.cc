@@ -81,6 +81,23 @@ void check_lidar(const proto::LidarConfiguration& lidar, const std::string& name
   require(is_amount(lidar.noise_m()), name + "lidar.noise_m must be 0 or more");
 }
 
+void check_gnss(const proto::GnssConfiguration& gnss, const std::string& name) {
+  require(gnss.period_ns() > 0 && gnss.correlation_time_ns() > 0,
+          name + "gnss.period_ns and gnss.correlation_time_ns must be above 0");
+  require(is_amount(gnss.mask_rad()) && gnss.mask_rad() < kRightAngle_rad,
+          name + "gnss.mask_rad must be 0 or more and below a right angle");
+  require(
+      is_amount(gnss.drift_m()) && is_amount(gnss.noise_m()) && is_amount(gnss.rate_noise_mps()),
+      name + "the noise of gnss must be 0 or more");
+}
+
+void check_site(const proto::GeodeticPosition& site) {
+  constexpr double kQuarter_deg = 90.0;
+  require(std::abs(site.latitude_deg()) <= kQuarter_deg && std::isfinite(site.longitude_deg()) &&
+              std::isfinite(site.height_m()),
+          "site must have a latitude within 90 degrees, and finite numbers");
+}
+
 void check_views(const proto::WorldNode& node, std::int64_t step_ns, const std::string& name) {
   if (node.has_ultrasonic()) {
     check_period(name + "ultrasonic.period_ns", node.ultrasonic().period_ns(), step_ns);
@@ -89,6 +106,10 @@ void check_views(const proto::WorldNode& node, std::int64_t step_ns, const std::
   if (node.has_lidar()) {
     check_period(name + "lidar.period_ns", node.lidar().period_ns(), step_ns);
     check_lidar(node.lidar(), name);
+  }
+  if (node.has_gnss()) {
+    check_period(name + "gnss.period_ns", node.gnss().period_ns(), step_ns);
+    check_gnss(node.gnss(), name);
   }
 }
 
@@ -128,6 +149,7 @@ void check_configuration(const proto::WorldConfiguration& configuration) {
   check_period("imu_period_ns", configuration.imu_period_ns(), configuration.step_ns());
   check_period("motion_capture_period_ns", configuration.motion_capture_period_ns(),
                configuration.step_ns());
+  check_site(configuration.site());
   std::set<std::uint32_t> numbers;
   for (const proto::WorldNode& node : configuration.nodes()) {
     check_node(node, configuration.step_ns());
@@ -171,6 +193,21 @@ LidarParameters parameters_of(const proto::LidarConfiguration& message) {
           .elevations_rad = {message.elevations_rad().begin(), message.elevations_rad().end()},
           .range_m = message.range_m(),
           .noise_m = message.noise_m()};
+}
+
+GnssParameters parameters_of(const proto::GnssConfiguration& message) {
+  return {.period = SimClock::duration{message.period_ns()},
+          .mask_rad = message.mask_rad(),
+          .drift_m = message.drift_m(),
+          .correlation_time = SimClock::duration{message.correlation_time_ns()},
+          .noise_m = message.noise_m(),
+          .rate_noise_mps = message.rate_noise_mps()};
+}
+
+city::Geodetic site_of(const proto::WorldConfiguration& configuration) {
+  return {.latitude_deg = configuration.site().latitude_deg(),
+          .longitude_deg = configuration.site().longitude_deg(),
+          .height_m = configuration.site().height_m()};
 }
 
 CollisionBody collision_body_of(const proto::WorldNode& node) {

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 
+#include "common/city/city.h"
 #include "proto/configuration.pb.h"
 #include "world/collision/collision_body.h"
 #include "world/dynamics/multirotor_parameters.h"
+#include "world/sensors/gnss.h"
 #include "world/sensors/lidar.h"
 #include "world/sensors/ultrasonic.h"
 
@@ -21,6 +23,10 @@ void check_configuration(const proto::WorldConfiguration& configuration);
 
 [[nodiscard]] UltrasonicParameters parameters_of(const proto::UltrasonicConfiguration& message);
 [[nodiscard]] LidarParameters parameters_of(const proto::LidarConfiguration& message);
+[[nodiscard]] GnssParameters parameters_of(const proto::GnssConfiguration& message);
+
+/// Where on Earth the origin is when no city tells it.
+[[nodiscard]] city::Geodetic site_of(const proto::WorldConfiguration& configuration);
 
 /// What of a vehicle hits and is hit; without a word about it a point, which meets no others.
 [[nodiscard]] CollisionBody collision_body_of(const proto::WorldNode& node);

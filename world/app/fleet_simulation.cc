@@ -1,6 +1,7 @@
 #include "world/app/fleet_simulation.h"
 
 #include <algorithm>
+#include <chrono>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -40,6 +41,10 @@ const proto::WorldConfiguration& checked(const proto::WorldConfiguration& config
   return configuration;
 }
 
+Surroundings surroundings_of(const RunCity* city) {
+  return city != nullptr ? Surroundings{&city->geometry} : Surroundings{};
+}
+
 std::uint64_t events(const shm::CommandTally& tally) {
   return tally.accepted + tally.rejected_not_finite + tally.rejected_out_of_range +
          tally.rejected_torn + tally.timeouts;
@@ -48,7 +53,7 @@ std::uint64_t events(const shm::CommandTally& tally) {
 }  // namespace
 
 FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration, WorldMemory memory,
-                                 const city::CityGeometry* city)
+                                 const RunCity* city)
     : step_ns_{checked(configuration).step_ns()},
       memory_{std::move(memory)},
       slots_{slot_count(configuration)},
@@ -64,8 +69,8 @@ FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration,
   }
   std::vector<FleetCollisions::Member> members;
   add_vehicles(configuration, members);
-  collisions_.emplace(std::move(members), Surroundings{city});
-  add_views(configuration, Surroundings{city});
+  collisions_.emplace(std::move(members), surroundings_of(city));
+  add_views(configuration, city);
   for (const proto::WorldNode& node : configuration.nodes()) {
     if (!node.has_multirotor()) {
       const RigidBodyState start = start_of(node);
@@ -145,7 +150,11 @@ void FleetSimulation::add_vehicles(const proto::WorldConfiguration& configuratio
 }
 
 void FleetSimulation::add_views(const proto::WorldConfiguration& configuration,
-                                const Surroundings& surroundings) {
+                                const RunCity* city) {
+  const ViewSensors::Place place{
+      .surroundings = surroundings_of(city),
+      .origin = city != nullptr ? city->origin : site_of(configuration),
+      .epoch = std::chrono::sys_seconds{std::chrono::seconds{configuration.epoch_unix_s()}}};
   for (const proto::WorldNode& node : configuration.nodes()) {
     if (!node.has_multirotor() || !ViewSensors::has_any(node)) {
       continue;
@@ -153,7 +162,7 @@ void FleetSimulation::add_views(const proto::WorldConfiguration& configuration,
     const auto vehicle = std::find_if(vehicles_.begin(), vehicles_.end(),
                                       [&](const Vehicle& one) { return one.node == node.node(); });
     views_.push_back({.member = vehicle->member,
-                      .sensors = {configuration.seed(), node, surroundings, vehicle->sensors}});
+                      .sensors = {configuration.seed(), node, place, vehicle->sensors}});
   }
 }
 

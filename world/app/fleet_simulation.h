@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/city/geometry/city_geometry.h"
 #include "common/units/sim_time.h"
 #include "proto/configuration.pb.h"
 #include "proto/report.pb.h"
@@ -16,6 +15,7 @@
 #include "proto/shm/vehicle_memory.h"
 #include "world/actuation/command_gate.h"
 #include "world/app/fleet_collisions.h"
+#include "world/app/run_city.h"
 #include "world/app/schedule.h"
 #include "world/app/view_sensors.h"
 #include "world/app/world_memory.h"
@@ -36,7 +36,7 @@ class FleetSimulation {
   /// @throws std::invalid_argument when `configuration` or the size of a memory is wrong, or a
   /// vehicle would start in something.
   FleetSimulation(const proto::WorldConfiguration& configuration, WorldMemory memory,
-                  const city::CityGeometry* city = nullptr);
+                  const RunCity* city = nullptr);
 
   /// Publishes the first sensor readings, at SimTime 0, and looks at the commands for the first
   /// time.
@@ -94,7 +94,7 @@ class FleetSimulation {
   void add_vehicles(const proto::WorldConfiguration& configuration,
                     std::vector<FleetCollisions::Member>& members);
   void publish_state(const Vehicle& vehicle) noexcept;
-  void add_views(const proto::WorldConfiguration& configuration, const Surroundings& surroundings);
+  void add_views(const proto::WorldConfiguration& configuration, const RunCity* city);
   void publish_fixed_nodes() noexcept;
   void publish_motion_capture(Vehicle& vehicle, const RigidBodyState& body, std::uint64_t reading);
   void publish_imu(Vehicle& vehicle, const RigidBodyState& body, std::uint64_t reading);

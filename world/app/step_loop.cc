@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "common/city/geometry/city_geometry.h"
 #include "common/city/transfer/city_message.h"
 #include "common/ipc/duration_summary.h"
 #include "common/log/log.h"
 #include "common/posix/resource_usage.h"
 #include "common/posix/shared_memory.h"
 #include "common/statistics/log2_histogram.h"
+#include "world/app/run_city.h"
 #include "world/app/world_memory.h"
 
 namespace cuscus::world {
@@ -130,13 +130,13 @@ proto::WorldReport run_steps(FleetSimulation& simulation, ipc::ChildSession& ses
 namespace {
 
 /// What the fleet flies in; null: the bare ground.
-std::unique_ptr<const city::CityGeometry> take_city(ipc::ChildSession& session) {
+std::unique_ptr<const RunCity> take_city(ipc::ChildSession& session) {
   const auto memory = session.take_if_given(proto::Descriptors::KIND_CITY);
   if (!memory) {
     return nullptr;
   }
   const auto mapping = posix::MemoryMapping::read_only(*memory);
-  return std::make_unique<city::CityGeometry>(city::from_bytes(mapping.bytes()));
+  return std::make_unique<RunCity>(city::from_bytes(mapping.bytes()));
 }
 
 }  // namespace

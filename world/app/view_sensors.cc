@@ -24,9 +24,9 @@ shm::LidarScan empty_scan(const LidarParameters& parameters) {
 
 }  // namespace
 
-ViewSensors::ViewSensors(std::uint64_t seed, const proto::WorldNode& node,
-                         const Surroundings& surroundings, shm::SensorMemoryWriter& memory)
-    : surroundings_{surroundings}, memory_{&memory} {
+ViewSensors::ViewSensors(std::uint64_t seed, const proto::WorldNode& node, const Place& place,
+                         shm::SensorMemoryWriter& memory)
+    : surroundings_{place.surroundings}, memory_{&memory} {
   if (node.has_ultrasonic()) {
     ultrasonic_ = {.sensor = {seed, node.node(), parameters_of(node.ultrasonic())},
                    .schedule = {.period_ns = node.ultrasonic().period_ns()}};
@@ -37,6 +37,12 @@ ViewSensors::ViewSensors(std::uint64_t seed, const proto::WorldNode& node,
         std::make_unique<TimedLidar>(TimedLidar{.sensor = {seed, node.node(), parameters},
                                                 .schedule = {.period_ns = node.lidar().period_ns()},
                                                 .scan = empty_scan(parameters)});
+  }
+  if (node.has_gnss()) {
+    gnss_.emplace(TimedGnss{.sensor = {seed, node.node(), parameters_of(node.gnss()),
+                                       Constellation{place.origin, place.epoch}},
+                            .schedule = {.period_ns = node.gnss().period_ns()},
+                            .frame = city::LocalFrame{place.origin}});
   }
 }
 
@@ -59,6 +65,34 @@ void ViewSensors::publish(const RigidBodyState& body, SimTime now) {
       memory_->publish(lidar_->scan);
     }
   }
+  if (gnss_) {
+    if (const auto reading = gnss_->schedule.due(to_ns(now))) {
+      publish_gnss(body, now, *reading);
+    }
+  }
+}
+
+void ViewSensors::publish_gnss(const RigidBodyState& body, SimTime now, std::uint64_t reading) {
+  const GnssSample sample = gnss_->sensor.sample(surroundings_, body, now, reading);
+  shm::GnssReading message{};
+  message.sim_time_ns = to_ns(now);
+  message.sequence = reading + 1;
+  message.satellites_in_view = sample.in_view;
+  message.satellites_received = sample.received;
+  if (sample.fix) {
+    const Eigen::Vector3d& p = sample.fix->p_WB_m;
+    const Eigen::Vector3d& v = sample.fix->v_WB_W_mps;
+    const city::Geodetic geodetic = gnss_->frame.to_geodetic(p);
+    message.has_fix = 1;
+    message.p_WB_m = {p.x(), p.y(), p.z()};
+    message.v_WB_W_mps = {v.x(), v.y(), v.z()};
+    message.latitude_deg = geodetic.latitude_deg;
+    message.longitude_deg = geodetic.longitude_deg;
+    message.height_m = geodetic.height_m;
+    message.hdop = sample.fix->hdop;
+    message.vdop = sample.fix->vdop;
+  }
+  memory_->publish(message);
 }
 
 }  // namespace cuscus::world

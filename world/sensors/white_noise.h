@@ -15,6 +15,9 @@ struct NoisePurpose {
   static constexpr std::uint16_t kMotionCaptureAttitude = 0x5704;
   static constexpr std::uint16_t kUltrasonic = 0x5705;
   static constexpr std::uint16_t kLidar = 0x5706;
+  static constexpr std::uint16_t kGnssDrift = 0x5707;
+  static constexpr std::uint16_t kGnssRange = 0x5708;
+  static constexpr std::uint16_t kGnssRangeRate = 0x5709;
 };
 
 /// Three independent standard normals: number `reading` of `stream`.

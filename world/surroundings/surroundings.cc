@@ -46,4 +46,21 @@ std::optional<city::Contact> Surroundings::sweep(const Eigen::Vector3d& p_WP,
   return city::Contact{.t = std::max(free_m, 0.0) / sinks_m};
 }
 
+std::optional<double> Surroundings::foliage_to_sky_m(const Eigen::Vector3d& p_WO,
+                                                     const Eigen::Vector3d& direction) const {
+  // Longer than any way through a city, which has 100 km at most.
+  constexpr double kWayOut_m = 200e3;
+  if (direction.z() <= 0.0 || p_WO.z() < ground_m(p_WO.head<2>())) {
+    return std::nullopt;
+  }
+  if (city_ == nullptr) {
+    return 0.0;
+  }
+  const Eigen::Vector3d p_WQ = p_WO + kWayOut_m * direction;
+  if (city_->blocked(p_WO, p_WQ) || city_->behind_ground(p_WO, p_WQ)) {
+    return std::nullopt;
+  }
+  return city_->foliage_m(p_WO, p_WQ);
+}
+
 }  // namespace cuscus::world

@@ -28,6 +28,17 @@ class Surroundings final {
                                                    const Eigen::Vector3d& p_WQ,
                                                    double radius_m) const;
 
+  /// The length of leaves that a ray from p_WO to the sky goes through; nothing when it does not
+  /// get there, because a building or the ground is in its way. A city's curvature is none: no ray
+  /// that points downwards gets there.
+  [[nodiscard]] std::optional<double> foliage_to_sky_m(const Eigen::Vector3d& p_WO,
+                                                       const Eigen::Vector3d& direction) const;
+
+  /// Height of the ground.
+  [[nodiscard]] double ground_m(const Eigen::Vector2d& p_W) const {
+    return city_ != nullptr ? city_->ground_m(p_W) : 0.0;
+  }
+
  private:
   const city::CityGeometry* city_{nullptr};
 };

@@ -131,6 +131,8 @@ class CityGeometry final {
                        const Eigen::Vector3d& p_WB, Crossings& found) const;
   /// Whether there is no line of sight: any building on the segment, or an end inside one.
   [[nodiscard]] bool blocked(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB) const;
+  /// Whether the ground is on the segment, or an end below it.
+  [[nodiscard]] bool behind_ground(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB) const;
   /// The buildings that come as near to the segment as `margin_m` or nearer, the crossed ones
   /// included; also some that do not (their boxes do). By ascending index; replaces `buildings`.
   void near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB, double margin_m,

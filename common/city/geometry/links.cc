@@ -125,6 +125,11 @@ bool CityGeometry::blocked(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p
   });
 }
 
+bool CityGeometry::behind_ground(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB) const {
+  require_finite(p_WA, p_WB);
+  return parts_->ground.hit(p_WA, p_WB).has_value();
+}
+
 void CityGeometry::prisms_near(const Eigen::Vector3d& p_WA, const Eigen::Vector3d& p_WB,
                                double margin_m, std::vector<std::uint32_t>& prisms) const {
   require_finite(p_WA, p_WB);

@@ -12,6 +12,8 @@
 #include "world/app/fleet_simulation.h"
 #include "world/dynamics/flair_fleet.h"
 #include "world/dynamics/quadrotor_fleet.h"
+#include "world/sensors/gnss.h"
+#include "world/surroundings/surroundings.h"
 
 namespace cuscus::world {
 namespace {
@@ -49,7 +51,7 @@ void measure_plant(const char* name, std::uint32_t vehicles) {
 }
 
 /// 1 600 blocks of 12 m, between streets of 5 m.
-city::CityGeometry blocks() {
+RunCity blocks() {
   std::vector<Block> blocks;
   for (int row = 0; row < 40; ++row) {
     for (int column = 0; column < 40; ++column) {
@@ -57,11 +59,11 @@ city::CityGeometry blocks() {
       blocks.push_back({.low_m = low, .high_m = low + Eigen::Vector3d{10.0, 10.0, 12.0}});
     }
   }
-  return city::CityGeometry{city_of(blocks)};
+  return RunCity{city_of(blocks)};
 }
 
 /// Hovering, 10 m apart; in a city 50 m above the ground.
-void measure_world(const char* name, std::uint32_t vehicles, const city::CityGeometry* city) {
+void measure_world(const char* name, std::uint32_t vehicles, const RunCity* city) {
   std::vector<std::uint32_t> nodes(vehicles);
   std::iota(nodes.begin(), nodes.end(), 0U);
   RunOfWorld memories{vehicles, nodes};
@@ -87,12 +89,33 @@ void measure_world(const char* name, std::uint32_t vehicles, const city::CityGeo
   });
 }
 
+/// A reading of satellite navigation on the street between blocks, and without a city.
+void measure_gnss(const char* name, const RunCity* city) {
+  const Constellation sky{{.latitude_deg = 49.4, .longitude_deg = 2.8, .height_m = 40.0}, {}};
+  Gnss gnss{1, 0, {}, sky};
+  const Surroundings surroundings =
+      city != nullptr ? Surroundings{&city->geometry} : Surroundings{};
+  const RigidBodyState body{.p_WB_m = {312.5, 305.0, 1.5}};
+  constexpr std::uint64_t kReadings = 100'000;
+  const auto begin = std::chrono::steady_clock::now();
+  std::uint64_t received = 0;
+  for (std::uint64_t k = 0; k < kReadings; ++k) {
+    const SimTime time = sim_time(static_cast<std::int64_t>(k) * 200'000'000);
+    received += gnss.sample(surroundings, body, time, k).received;
+  }
+  const std::chrono::duration<double, std::micro> spent = std::chrono::steady_clock::now() - begin;
+  std::printf("%-28s %8.2f us per reading, %.1f satellites received\n", name,
+              spent.count() / kReadings, static_cast<double>(received) / kReadings);
+}
+
 }  // namespace
 }  // namespace cuscus::world
 
 int main() {
   using namespace cuscus::world;
-  const cuscus::city::CityGeometry city = blocks();
+  const cuscus::world::RunCity city = blocks();
+  measure_gnss("GNSS in the open", nullptr);
+  measure_gnss("GNSS in a city", &city);
   for (const std::uint32_t vehicles : {10U, 100U, 1000U}) {
     measure_plant<QuadrotorFleet>("corrected plant", vehicles);
     measure_plant<FlairFleet>("faithful plant", vehicles);

@@ -113,7 +113,8 @@ TEST_CASE("A vehicle has the view that its group is given, and no other") {
   const Plan plan = plan_of(R"({"name": "t", "fleet": [
       {"name": "a", "vehicle": {"model": "x4", "collision": {"behaviour": "crash"},
        "sensors": {"ultrasonic": {"direction": "left", "beam": "40 deg"},
-                   "lidar": {"rays": 8, "elevations": ["-10 deg", "10 deg"]}}}},
+                   "lidar": {"rays": 8, "elevations": ["-10 deg", "10 deg"]},
+                   "gnss": {"rate": "10 Hz", "mask": "18 deg", "drift": "3 m"}}}},
       {"name": "b", "vehicle": {"model": "x4", "arm": "50 cm"},
        "start": {"layout": "list", "positions": [["5 m", "0 m", "0 m"]]}}]})");
 
@@ -126,6 +127,13 @@ TEST_CASE("A vehicle has the view that its group is given, and no other") {
   CHECK(first.lidar().rays() == 8);
   REQUIRE(first.lidar().elevations_rad_size() == 2);
   CHECK(first.lidar().elevations_rad(0) == Approx(-0.17453293));
+  CHECK(first.gnss().period_ns() == 100'000'000);
+  CHECK(first.gnss().mask_rad() == Approx(0.31415927));
+  CHECK(first.gnss().drift_m() == 3.0);
+  CHECK(first.gnss().correlation_time_ns() == 100'000'000'000);
+  CHECK(plan.world.site().latitude_deg() == 49.4);
+  CHECK(plan.world.epoch_unix_s() == 1'767'268'800);  // noon of the first day of 2026
+  CHECK_FALSE(plan.world.nodes(1).has_gnss());
   CHECK_FALSE(plan.world.nodes(1).has_ultrasonic());
   CHECK_FALSE(plan.world.nodes(1).has_lidar());
   CHECK(plan.world.nodes(1).collision().radius_m() == Approx(0.6));  // its arm and 10 cm

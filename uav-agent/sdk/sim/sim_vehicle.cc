@@ -97,6 +97,30 @@ std::optional<LidarScan> SimVehicle::lidar() const {
       .ranges_m = {scan->range_m.begin(), scan->range_m.begin() + ranges}};
 }
 
+std::optional<GnssReading> SimVehicle::gnss() const {
+  const auto reading = sensor_reader_.gnss();
+  if (!reading) {
+    return std::nullopt;
+  }
+  GnssReading converted{.time = sim_time(reading->sim_time_ns),
+                        .sequence = reading->sequence,
+                        .satellites_in_view = reading->satellites_in_view,
+                        .satellites_received = reading->satellites_received,
+                        .fix = std::nullopt};
+  if (reading->has_fix != 0) {
+    const auto& p = reading->p_WB_m;
+    const auto& v = reading->v_WB_W_mps;
+    converted.fix = GnssFix{.p_WB_m = {p[0], p[1], p[2]},
+                            .v_WB_W_mps = {v[0], v[1], v[2]},
+                            .latitude_deg = reading->latitude_deg,
+                            .longitude_deg = reading->longitude_deg,
+                            .height_m = reading->height_m,
+                            .hdop = reading->hdop,
+                            .vdop = reading->vdop};
+  }
+  return converted;
+}
+
 std::optional<MotionCaptureReading> SimVehicle::motion_capture_of(std::uint32_t node) const {
   if (node >= fleet_reader_->node_count()) {
     return std::nullopt;

@@ -58,6 +58,7 @@ class SimVehicle final : public Vehicle,
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture() const override;
   [[nodiscard]] std::optional<UltrasonicReading> ultrasonic() const override;
   [[nodiscard]] std::optional<LidarScan> lidar() const override;
+  [[nodiscard]] std::optional<GnssReading> gnss() const override;
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture_of(
       std::uint32_t node) const override;
   [[nodiscard]] std::vector<Neighbour> neighbours() const override;

@@ -84,6 +84,7 @@ TEST_CASE("The scenario written out in full is the same scenario") {
                 "shadowing": {"deviation": "6 dB", "decorrelation": "13 m"},
                 "fading": {"model": "rice", "k_factor": "3 dB", "residual_doppler": "2 Hz"},
                 "propagation": {"model": "paper-eq1", "alpha": 22.5, "chi": "9 dB2"}},
+      "world": {"epoch": "2031-12-24T18:30:05Z", "site": {"latitude": -33.9, "height": "75 m"}},
       "network": {"subnet": "192.168.7.0/24", "attach": "direct", "neighbours": "arp",
                   "monitor": true},
       "fleet": [
@@ -92,7 +93,8 @@ TEST_CASE("The scenario written out in full is the same scenario") {
          "vehicle": {"model": "x4", "mass": "1500 g", "faithful": true,
                      "collision": {"behaviour": "bounce", "restitution": 0.75, "radius": "45 cm"},
                      "sensors": {"ultrasonic": {"rate": "20 Hz", "direction": "forward", "beam": "12 deg"},
-                                 "lidar": {"rays": 64, "field": "90 deg", "elevations": ["-15 deg", "0 deg", "7.5 deg"]}}},
+                                 "lidar": {"rays": 64, "field": "90 deg", "elevations": ["-15 deg", "0 deg", "7.5 deg"]},
+                                 "gnss": {"rate": "10 Hz", "mask": "7.5 deg", "correlation_time": "5 min"}}},
          "mission": {"type": "circle", "centre": ["-7.25 m", "1 km"], "speed": "7 km/h"},
          "neighbours": {"source": "motion-capture", "beacon_period": "1 s"},
          "agent": ["./fly", "{index}"]},

@@ -108,8 +108,13 @@ TEST_CASE("a vehicle's memory has room for a lidar only if the vehicle has one")
   CHECK(without.bytes().size() + sizeof(LidarMemoryLayout) == with.bytes().size());
   CHECK_FALSE(agent.lidar());
   CHECK_FALSE(agent.ultrasonic());
+  CHECK_FALSE(agent.gnss());
 
   plain.publish(UltrasonicReading{.sim_time_ns = 1, .sequence = 1, .distance_m = 2.5});
+  GnssReading gnss{};
+  gnss.sequence = 4;
+  gnss.vdop = 1.5;
+  plain.publish(gnss);
   LidarScan scan{};
   scan.sequence = 7;
   scan.rows = 2;
@@ -119,6 +124,7 @@ TEST_CASE("a vehicle's memory has room for a lidar only if the vehicle has one")
 
   CHECK_FALSE(SensorMemoryReader{without.bytes()}.lidar());
   CHECK(SensorMemoryReader{without.bytes()}.ultrasonic()->distance_m == 2.5);
+  CHECK(SensorMemoryReader{without.bytes()}.gnss()->vdop == 1.5);
   CHECK(agent.lidar()->sequence == 7);
   CHECK(agent.lidar()->range_m.back() == 12.5F);
   scan.rays += 1;  // more than there can be

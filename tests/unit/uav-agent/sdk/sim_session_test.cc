@@ -85,6 +85,29 @@ TEST_CASE("a vehicle shows what the world writes, and its commands reach the wor
   CHECK(seen.elevations_rad == std::vector{0.0F, 0.25F});
   CHECK(seen.ranges_m == std::vector{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 9.5F});
 
+  CHECK_FALSE(vehicle.sensors().gnss());
+  shm::GnssReading gnss{};
+  gnss.sim_time_ns = 9;
+  gnss.sequence = 6;
+  gnss.satellites_in_view = 8;
+  gnss.satellites_received = 3;
+  run.sensors.publish(gnss);
+  CHECK(vehicle.sensors().gnss()->satellites_in_view == 8);
+  CHECK(vehicle.sensors().gnss()->satellites_received == 3);
+  CHECK_FALSE(vehicle.sensors().gnss()->fix);
+  gnss.has_fix = 1;
+  gnss.p_WB_m = {1.0, 2.0, 3.0};
+  gnss.v_WB_W_mps = {4.0, 5.0, 6.0};
+  gnss.longitude_deg = 2.5;
+  gnss.hdop = 1.25;
+  run.sensors.publish(gnss);
+  const auto fix = vehicle.sensors().gnss()->fix.value();
+  CHECK(vehicle.sensors().gnss()->time == sim_time(9));
+  CHECK(fix.p_WB_m == Eigen::Vector3d{1.0, 2.0, 3.0});
+  CHECK(fix.v_WB_W_mps == Eigen::Vector3d{4.0, 5.0, 6.0});
+  CHECK(fix.longitude_deg == 2.5);
+  CHECK(fix.hdop == 1.25);
+
   vehicle.actuators().set_motors({0.1, 0.2, 0.3, 0.4}, sim_time(77));
   vehicle.actuators().set_motors({0.5, 0.6, 0.7, 0.8}, sim_time(78));
   const auto command = run.actuators.command().value();

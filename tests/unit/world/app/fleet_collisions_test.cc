@@ -13,8 +13,8 @@ namespace {
 
 /// A house with walls at x = ±5 m and y = ±5 m and its roof at 12 m; a tower whose wall is at
 /// x = 100 m.
-const city::CityGeometry& town() {
-  static const city::CityGeometry geometry{
+const RunCity& town() {
+  static const RunCity geometry{
       city_of({{.low_m = {-5.0, -5.0, 0.0}, .high_m = {5.0, 5.0, 12.0}},
                {.low_m = {100.0, -50.0, 0.0}, .high_m = {110.0, 50.0, 1000.0}}})};
   return geometry;

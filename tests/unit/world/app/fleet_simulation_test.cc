@@ -247,6 +247,17 @@ TEST_CASE("a configuration that cannot be is refused by name") {
     lidar.add_elevations_rad(0.1);
     CHECK_THAT(refusal(), Catch::Contains("2 rows of 3000 rays") && Catch::Contains("4096"));
   }
+  SECTION("a receiver that looks straight up alone") {
+    proto::GnssConfiguration& gnss = *configuration.mutable_nodes(0)->mutable_gnss();
+    gnss.set_period_ns(200'000'000);
+    gnss.set_correlation_time_ns(1);
+    gnss.set_mask_rad(1.6);
+    CHECK_THAT(refusal(), Catch::Contains("'uav0'") && Catch::Contains("gnss.mask_rad"));
+  }
+  SECTION("a place that is not on Earth") {
+    configuration.mutable_site()->set_latitude_deg(90.5);
+    CHECK_THAT(refusal(), Catch::Contains("site"));
+  }
   SECTION("sensors faster than the step") {
     configuration.set_imu_period_ns(10);
     CHECK_THAT(refusal(), Catch::Contains("imu_period_ns"));
