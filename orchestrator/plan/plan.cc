@@ -12,6 +12,7 @@
 #include "common/scenario/placeholders.h"
 #include "orchestrator/plan/capacity.h"
 #include "orchestrator/plan/radio_configuration.h"
+#include "orchestrator/plan/world_configuration.h"
 
 namespace cuscus::orchestrator {
 namespace {
@@ -40,98 +41,6 @@ std::array<std::uint8_t, 6> mac_of(std::uint32_t node) {
           static_cast<std::uint8_t>(number)};
 }
 
-proto::Vector3 vector_of(const scenario::Position_m& p_m) {
-  proto::Vector3 vector;
-  vector.set_x(p_m[0]);
-  vector.set_y(p_m[1]);
-  vector.set_z(p_m[2]);
-  return vector;
-}
-
-proto::MultirotorParameters parameters_of(const scenario::X4Vehicle& x4) {
-  proto::MultirotorParameters parameters;
-  const scenario::X4Vehicle original;
-  const bool changed = x4.mass_kg != original.mass_kg || x4.arm_m != original.arm_m ||
-                       x4.inertia_roll_kgm2 != original.inertia_roll_kgm2 ||
-                       x4.inertia_pitch_kgm2 != original.inertia_pitch_kgm2 ||
-                       x4.inertia_yaw_kgm2 != original.inertia_yaw_kgm2 ||
-                       x4.drag_vertical_Nspm != original.drag_vertical_Nspm ||
-                       x4.drag_lateral_Nspm != original.drag_lateral_Nspm ||
-                       x4.motor_timeout != original.motor_timeout;
-  parameters.set_source(std::string{"FL-AIR, simulator_x4.xml"} +
-                        (changed ? ", with changes from the scenario" : ""));
-  parameters.set_mass_kg(x4.mass_kg);
-  parameters.set_arm_m(x4.arm_m);
-  parameters.set_thrust_factor(scenario::kX4ThrustFactor_N);
-  parameters.set_torque_factor(scenario::kX4TorqueFactor_Nm);
-  parameters.set_drag_vertical(x4.drag_vertical_Nspm);
-  parameters.set_drag_lateral(x4.drag_lateral_Nspm);
-  parameters.set_inertia_roll_kgm2(x4.inertia_roll_kgm2);
-  parameters.set_inertia_pitch_kgm2(x4.inertia_pitch_kgm2);
-  parameters.set_inertia_yaw_kgm2(x4.inertia_yaw_kgm2);
-  parameters.set_motor_speed_per_command(scenario::kX4SpeedPerCommand);
-  parameters.set_motor_timeout_ns(x4.motor_timeout.count());
-  parameters.set_faithful(x4.faithful);
-  return parameters;
-}
-
-proto::CollisionConfiguration collision_of(const scenario::Collision& from) {
-  proto::CollisionConfiguration collision;
-  collision.set_behaviour(scenario::name_of(scenario::kCollisionBehaviourNames, from.behaviour));
-  collision.set_restitution(from.restitution);
-  collision.set_radius_m(from.radius_m);
-  return collision;
-}
-
-proto::Vector3 axis_of(scenario::SensorDirection direction) {
-  switch (direction) {
-    case scenario::SensorDirection::kDown:
-      return vector_of({0.0, 0.0, -1.0});
-    case scenario::SensorDirection::kUp:
-      return vector_of({0.0, 0.0, 1.0});
-    case scenario::SensorDirection::kForward:
-      return vector_of({1.0, 0.0, 0.0});
-    case scenario::SensorDirection::kBackward:
-      return vector_of({-1.0, 0.0, 0.0});
-    case scenario::SensorDirection::kLeft:
-      return vector_of({0.0, 1.0, 0.0});
-    case scenario::SensorDirection::kRight:
-      return vector_of({0.0, -1.0, 0.0});
-  }
-  return {};
-}
-
-void add_sensors(const scenario::VehicleSensors& from, proto::WorldNode& node) {
-  if (from.ultrasonic) {
-    proto::UltrasonicConfiguration& ultrasonic = *node.mutable_ultrasonic();
-    ultrasonic.set_period_ns(from.ultrasonic->period.count());
-    ultrasonic.set_range_m(from.ultrasonic->range_m);
-    ultrasonic.set_half_angle_rad(from.ultrasonic->beam_rad / 2.0);
-    ultrasonic.set_noise_m(from.ultrasonic->noise_m);
-    *ultrasonic.mutable_axis_b() = axis_of(from.ultrasonic->direction);
-  }
-  if (from.lidar) {
-    proto::LidarConfiguration& lidar = *node.mutable_lidar();
-    lidar.set_period_ns(from.lidar->period.count());
-    lidar.set_rays(from.lidar->rays);
-    lidar.set_field_rad(from.lidar->field_rad);
-    for (const double elevation_rad : from.lidar->elevations_rad) {
-      lidar.add_elevations_rad(elevation_rad);
-    }
-    lidar.set_range_m(from.lidar->range_m);
-    lidar.set_noise_m(from.lidar->noise_m);
-  }
-  if (from.gnss) {
-    proto::GnssConfiguration& gnss = *node.mutable_gnss();
-    gnss.set_period_ns(from.gnss->period.count());
-    gnss.set_mask_rad(from.gnss->mask_rad);
-    gnss.set_drift_m(from.gnss->drift_m);
-    gnss.set_correlation_time_ns(from.gnss->correlation_time.count());
-    gnss.set_noise_m(from.gnss->noise_m);
-    gnss.set_rate_noise_mps(from.gnss->rate_noise_mps);
-  }
-}
-
 proto::CircleMission mission_of(const scenario::CircleMission& circle) {
   proto::CircleMission mission;
   *mission.mutable_p_wc_centre_m() =
@@ -158,7 +67,8 @@ class Planner {
       plan_ground_station();
     }
     plan_hosts();
-    plan_world();
+    plan_.world = world_configuration(scenario_, plan_.nodes);
+    plan_.world.set_realtime_priority(priority(scenario_, kWorldPriority));
     plan_radio();
     plan_.capacity = estimate_capacity(scenario_);
     return std::move(plan_);
@@ -349,49 +259,6 @@ class Planner {
         plan_.hosts.push_back({.ip = node.ip, .name = node.name});
       }
     }
-  }
-
-  void plan_world() {
-    proto::WorldConfiguration& world = plan_.world;
-    world.set_seed(scenario_.seed);
-    world.set_step_ns(scenario_.world.step.count());
-    world.set_gravity_mps2(scenario_.world.gravity_mps2);
-    world.set_imu_period_ns(scenario_.world.imu_period.count());
-    world.set_gyro_noise_radps(scenario_.world.gyro_noise_radps);
-    world.set_accelerometer_noise_mps2(scenario_.world.accelerometer_noise_mps2);
-    world.set_motion_capture_period_ns(scenario_.world.motion_capture_period.count());
-    world.set_motion_capture_noise_m(scenario_.world.motion_capture_noise_m);
-    world.set_motion_capture_noise_rad(scenario_.world.motion_capture_noise_rad);
-    world.set_realtime_priority(priority(scenario_, kWorldPriority));
-    const city::Geodetic site = scenario_.world.site.value_or(scenario::kDefaultSite);
-    world.mutable_site()->set_latitude_deg(site.latitude_deg);
-    world.mutable_site()->set_longitude_deg(site.longitude_deg);
-    world.mutable_site()->set_height_m(site.height_m);
-    world.set_epoch_unix_s(scenario_.world.epoch.time_since_epoch().count());
-    std::size_t next = 0;
-    for (const Group& group : scenario_.fleet) {
-      const auto* x4 = std::get_if<scenario::X4Vehicle>(&group.vehicle);
-      for (std::uint32_t member = 0; member < group.count; ++member) {
-        proto::WorldNode& node = add_world_node(plan_.nodes[next++]);
-        node.set_yaw_start_rad(group.start.heading_rad);
-        if (x4 != nullptr) {
-          *node.mutable_multirotor() = parameters_of(*x4);
-          *node.mutable_collision() = collision_of(x4->collision);
-          add_sensors(x4->sensors, node);
-        }
-      }
-    }
-    if (next < plan_.nodes.size()) {
-      add_world_node(plan_.nodes[next]);
-    }
-  }
-
-  proto::WorldNode& add_world_node(const NodePlan& from) {
-    proto::WorldNode& node = *plan_.world.add_nodes();
-    node.set_node(from.index);
-    node.set_name(from.name);
-    *node.mutable_p_wb_start_m() = vector_of(from.p_WB_start_m);
-    return node;
   }
 
   void plan_radio() {
