@@ -8,20 +8,6 @@
 namespace cuscus::world {
 namespace {
 
-std::string name_of(city::Body body, std::uint32_t index) {
-  switch (body) {
-    case city::Body::kBuilding:
-      return "building " + std::to_string(index);
-    case city::Body::kTree:
-      return "tree " + std::to_string(index);
-    case city::Body::kWood:
-      return "wood " + std::to_string(index);
-    case city::Body::kGround:
-      break;
-  }
-  return "the ground";
-}
-
 std::string place_text(const Eigen::Vector3d& p_m) {
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "(%.2f, %.2f, %.2f) m", p_m.x(), p_m.y(), p_m.z());
@@ -39,9 +25,11 @@ std::vector<CollisionBody> bodies_of(const std::vector<FleetCollisions::Member>&
 
 }  // namespace
 
-FleetCollisions::FleetCollisions(std::vector<Member> members, const Surroundings& surroundings)
+FleetCollisions::FleetCollisions(std::vector<Member> members, const Surroundings& surroundings,
+                                 std::span<const std::string> buildings)
     : members_{std::move(members)},
       has_city_{surroundings.has_city()},
+      buildings_{buildings},
       tallies_(members_.size()),
       collisions_{bodies_of(members_), surroundings} {
   for (std::size_t i = 0; i < members_.size(); ++i) {
@@ -65,11 +53,10 @@ void FleetCollisions::check_start(std::size_t member) const {
   const auto surface = collisions_.in_the_way(static_cast<std::uint32_t>(member), p_WB_m);
   if (surface) {
     const double radius_m = members_[member].body.radius_m;
-    throw std::invalid_argument{
-        members_[member].name + " starts at " + place_text(p_WB_m) +
-        ", which is not free: " + world::name_of(surface->body, surface->index) +
-        " is there; allowed: on or above the ground, and " + std::to_string(radius_m) +
-        " m from all else"};
+    throw std::invalid_argument{members_[member].name + " starts at " + place_text(p_WB_m) +
+                                ", which is not free: " + name_of(surface->body, surface->index) +
+                                " is there; allowed: on or above the ground, and " +
+                                std::to_string(radius_m) + " m from all else"};
   }
 }
 
@@ -126,17 +113,31 @@ void FleetCollisions::count(const CollisionEvent& event) {
 std::string FleetCollisions::name_of(const Struck& struck) const {
   switch (struck.kind) {
     case Struck::Kind::kBuilding:
-      return world::name_of(city::Body::kBuilding, struck.index);
+      return name_of(city::Body::kBuilding, struck.index);
     case Struck::Kind::kTree:
-      return world::name_of(city::Body::kTree, struck.index);
+      return name_of(city::Body::kTree, struck.index);
     case Struck::Kind::kWood:
-      return world::name_of(city::Body::kWood, struck.index);
+      return name_of(city::Body::kWood, struck.index);
     case Struck::Kind::kVehicle:
       return members_[struck.index].name;
     case Struck::Kind::kGround:
       break;
   }
-  return world::name_of(city::Body::kGround, 0);
+  return name_of(city::Body::kGround, 0);
+}
+
+std::string FleetCollisions::name_of(city::Body body, std::uint32_t index) const {
+  switch (body) {
+    case city::Body::kBuilding:
+      return index < buildings_.size() ? buildings_[index] : "building " + std::to_string(index);
+    case city::Body::kTree:
+      return "tree " + std::to_string(index);
+    case city::Body::kWood:
+      return "wood " + std::to_string(index);
+    case city::Body::kGround:
+      break;
+  }
+  return "the ground";
 }
 
 void FleetCollisions::report(proto::WorldReport& report) const {

@@ -26,9 +26,11 @@ class FleetCollisions {
   };
 
   /// Vehicles that start on something stand on it.
+  /// `buildings`, which must outlive this, says what each is called; else by their numbers.
   /// @throws std::invalid_argument naming the vehicle, its place and what is there, when one would
   /// start in something.
-  FleetCollisions(std::vector<Member> members, const Surroundings& surroundings);
+  FleetCollisions(std::vector<Member> members, const Surroundings& surroundings,
+                  std::span<const std::string> buildings = {});
 
   /// After a step of the plants: takes the vehicles where contacts allow them to be, and stops the
   /// motors of those that crash.
@@ -41,7 +43,7 @@ class FleetCollisions {
   /// The first contact of a vehicle in the run.
   struct FirstContact {
     std::string name;
-    std::string what;  ///< "building 12", "the ground", "uav3"
+    std::string what;  ///< "building 12 (way 4711)", "the ground", "uav3"
     Eigen::Vector3d p_WB_m;
     double speed_mps;
     bool crash;
@@ -66,9 +68,11 @@ class FleetCollisions {
   void check_start(std::size_t member) const;
   void count(const CollisionEvent& event);
   [[nodiscard]] std::string name_of(const Struck& struck) const;
+  [[nodiscard]] std::string name_of(city::Body body, std::uint32_t index) const;
 
   std::vector<Member> members_;
   bool has_city_;
+  std::span<const std::string> buildings_;
   std::vector<RigidBodyState> states_;
   std::vector<Tally> tallies_;
   std::vector<FirstContact> first_contacts_;

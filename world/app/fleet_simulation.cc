@@ -69,7 +69,8 @@ FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration,
   }
   std::vector<FleetCollisions::Member> members;
   add_vehicles(configuration, members);
-  collisions_.emplace(std::move(members), surroundings_of(city));
+  collisions_.emplace(std::move(members), surroundings_of(city),
+                      city != nullptr ? std::span{city->buildings} : std::span<const std::string>{});
   add_views(configuration, city);
   for (const proto::WorldNode& node : configuration.nodes()) {
     if (!node.has_multirotor()) {

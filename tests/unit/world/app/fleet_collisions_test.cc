@@ -150,6 +150,15 @@ TEST_CASE("of two vehicles one above the other both tell that they met") {
   }
 }
 
+TEST_CASE("a building is called by what the map knows of it") {
+  city::Building building;
+  CHECK(building_label(building, 12) == "building 12");
+  building.name = "Mill";
+  CHECK(building_label(building, 12) == "building 12 ('Mill')");
+  building.osm_id = -88;
+  CHECK(building_label(building, 0) == "building 0 (relation 88, 'Mill')");
+}
+
 TEST_CASE("a start that is not free is refused with the vehicle, its place and what is there") {
   const RunOfWorld memories{2, {0, 1}};
   const auto refusal = [&](const Eigen::Vector3d& place) {
