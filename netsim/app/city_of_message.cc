@@ -24,12 +24,17 @@ WallLosses walls_of(const ChannelParameters& channel) {
 std::shared_ptr<const Obstacles> obstacles_of(const city::City& city,
                                               const ChannelParameters& channel) {
   const WallLosses walls = walls_of(channel);
-  return std::make_shared<CityObstacles>(city, std::make_shared<city::CityGeometry>(city), walls);
+  return std::make_shared<CityObstacles>(city, std::make_shared<const city::CityGeometry>(city),
+                                         walls);
 }
 
-void put_city(std::span<const std::byte> message, ChannelParameters& channel) {
-  static_cast<void>(walls_of(channel));  // what is wrong with them comes first
-  channel.city = obstacles_of(city::from_bytes(message), channel);
+std::shared_ptr<const city::CityGeometry> put_city(std::span<const std::byte> message,
+                                                   ChannelParameters& channel) {
+  const WallLosses walls = walls_of(channel);  // what is wrong with them comes first
+  const city::City city = city::from_bytes(message);
+  auto geometry = std::make_shared<const city::CityGeometry>(city);
+  channel.city = std::make_shared<CityObstacles>(city, geometry, walls);
+  return geometry;
 }
 
 }  // namespace cuscus::netsim

@@ -48,7 +48,10 @@ void print_runs(const proto::SyntheticRuns& runs, const std::function<std::ostre
   for (const proto::SyntheticRun& run : runs.runs()) {
     SyntheticParameters p = synthetic_parameters(run);
     if (!runs.city().empty()) {
-      put_city(std::as_bytes(std::span{runs.city()}), p.air.channel);
+      const auto city = put_city(std::as_bytes(std::span{runs.city()}), p.air.channel);
+      for (Eigen::Vector3d& p_WN_m : p.layout.p_WN_m) {
+        p_WN_m.z() += city->ground_m(p_WN_m.head<2>());
+      }
     }
     const std::string fields = result_fields(run_synthetic(p));
     if (out == nullptr) {

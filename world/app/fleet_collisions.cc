@@ -35,6 +35,7 @@ FleetCollisions::FleetCollisions(std::vector<Member> members, const Surroundings
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const auto& [node, name, plant, index, body] = members_[i];
     states_.push_back(plant->state(index));
+    rise_from_slope(i);
     check_start(i);
     const auto vehicle = static_cast<std::uint32_t>(i);
     collisions_.place(vehicle, states_[i].p_WB_m);
@@ -42,6 +43,21 @@ FleetCollisions::FleetCollisions(std::vector<Member> members, const Surroundings
       plant->rest(index);
       states_[i] = plant->state(index);
     }
+  }
+}
+
+void FleetCollisions::rise_from_slope(std::size_t member) {
+  // One time on a plane; where the ground bends, each leaves a small part of the gap.
+  constexpr int kMostTimes = 20;
+  const auto& [node, name, plant, index, body] = members_[member];
+  RigidBodyState& state = states_[member];
+  for (int i = 0; i < kMostTimes; ++i) {
+    const auto surface = collisions_.in_the_way(static_cast<std::uint32_t>(member), state.p_WB_m);
+    if (!surface || surface->body != city::Body::kGround) {
+      return;
+    }
+    state.p_WB_m.z() += (body.radius_m - surface->distance_m) / surface->normal.z();
+    plant->set_state(index, state);
   }
 }
 

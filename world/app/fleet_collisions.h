@@ -25,7 +25,7 @@ class FleetCollisions {
     CollisionBody body;
   };
 
-  /// Vehicles that start on something stand on it.
+  /// Vehicles that start on something stand on it; one on a slope as much higher as its ball needs.
   /// `buildings`, which must outlive this, says what each is called; else by their numbers.
   /// @throws std::invalid_argument naming the vehicle, its place and what is there, when one would
   /// start in something.
@@ -65,6 +65,7 @@ class FleetCollisions {
     [[nodiscard]] std::uint64_t contacts() const { return buildings + ground + trees + vehicles; }
   };
 
+  void rise_from_slope(std::size_t member);
   void check_start(std::size_t member) const;
   void count(const CollisionEvent& event);
   [[nodiscard]] std::string name_of(const Struck& struck) const;

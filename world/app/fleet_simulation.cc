@@ -19,9 +19,9 @@ constexpr std::int64_t kFixedNodePeriod_ns = 1'000'000'000;
 std::array<double, 3> array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 std::array<double, 4> array_of(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
-RigidBodyState start_of(const proto::WorldNode& node) {
+RigidBodyState start_of(const proto::WorldNode& node, const Surroundings& surroundings) {
   const proto::Vector3& p = node.p_wb_start_m();
-  return {.p_WB_m = {p.x(), p.y(), p.z()},
+  return {.p_WB_m = {p.x(), p.y(), surroundings.ground_m({p.x(), p.y()}) + p.z()},
           .q_WB = Eigen::Quaterniond{
               Eigen::AngleAxisd{node.yaw_start_rad(), Eigen::Vector3d::UnitZ()}}};
 }
@@ -67,14 +67,16 @@ FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration,
               "motion-capture memory"),
         slots_);
   }
+  const Surroundings surroundings = surroundings_of(city);
   std::vector<FleetCollisions::Member> members;
-  add_vehicles(configuration, members);
-  collisions_.emplace(std::move(members), surroundings_of(city),
-                      city != nullptr ? std::span{city->buildings} : std::span<const std::string>{});
+  add_vehicles(configuration, surroundings, members);
+  collisions_.emplace(
+      std::move(members), surroundings,
+      city != nullptr ? std::span{city->buildings} : std::span<const std::string>{});
   add_views(configuration, city);
   for (const proto::WorldNode& node : configuration.nodes()) {
     if (!node.has_multirotor()) {
-      const RigidBodyState start = start_of(node);
+      const RigidBodyState start = start_of(node, surroundings);
       fixed_nodes_.push_back(
           {.node = node.node(),
            .state = {.sim_time_ns = 0,
@@ -82,7 +84,7 @@ FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration,
                      .v_WB_W_mps = {},
                      .q_WB = array_of(start.q_WB),
                      .w_WB_B_radps = {},
-                     .flags = start.p_WB_m.z() <= 0.0 ? shm::NodeFlag::kOnGround : 0}});
+                     .flags = node.p_wb_start_m().z() <= 0.0 ? shm::NodeFlag::kOnGround : 0}});
     }
   }
   for (const Vehicle& vehicle : vehicles_) {
@@ -94,6 +96,7 @@ FleetSimulation::FleetSimulation(const proto::WorldConfiguration& configuration,
 }
 
 void FleetSimulation::add_vehicles(const proto::WorldConfiguration& configuration,
+                                   const Surroundings& surroundings,
                                    std::vector<FleetCollisions::Member>& members) {
   const PlantSettings settings{.step_s = to_seconds(step_length()),
                                .gravity_mps2 = configuration.gravity_mps2(),
@@ -119,7 +122,7 @@ void FleetSimulation::add_vehicles(const proto::WorldConfiguration& configuratio
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const proto::WorldNode& node = *nodes[i];
       const WorldMemory::Vehicle& memory = memory_.vehicles.at(node.node());
-      plant.set_state(i, start_of(node));
+      plant.set_state(i, start_of(node, surroundings));
       members.push_back({.node = node.node(),
                          .name = node.name(),
                          .plant = &plant,

@@ -92,6 +92,7 @@ class FleetSimulation {
   };
 
   void add_vehicles(const proto::WorldConfiguration& configuration,
+                    const Surroundings& surroundings,
                     std::vector<FleetCollisions::Member>& members);
   void publish_state(const Vehicle& vehicle) noexcept;
   void add_views(const proto::WorldConfiguration& configuration, const RunCity* city);

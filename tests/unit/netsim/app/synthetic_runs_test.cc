@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "common/city/transfer/city_message.h"
 #include "netsim/app/synthetic_configuration.h"
 #include "netsim/app/synthetic_table.h"
 
@@ -115,6 +116,27 @@ TEST_CASE("a table of runs has a header and a line per run, and nothing when the
   CHECK_THROWS_AS(
       print_runs(runs, []() -> std::ostream& { throw std::logic_error{"the table was begun"}; }),
       std::invalid_argument);
+}
+
+TEST_CASE("on a city's terrain the nodes' heights count from the ground beneath them") {
+  const float height_m = GENERATE(0.0F, 5000.0F);
+  city::City cliff;
+  cliff.terrain = city::Terrain{.south_west_m = {0.0, 0.0},
+                                .cell_m = 10.0,
+                                .columns = 2,
+                                .rows = 1,
+                                .height_m = {0.0F, height_m}};
+  proto::SyntheticRuns runs;
+  runs.set_scenario_name("cliff");
+  *runs.add_runs() = pair("flow");
+  runs.set_city(city::to_message(cliff).SerializeAsString());
+  std::ostringstream out;
+
+  print_runs(runs, [&]() -> std::ostream& { return out; });
+
+  // 16 dBm after 114 dB of 5 km of free space are far below what 54 Mb/s need.
+  const bool heard = out.str().find(",1.000,0.0000,0.00000,") == std::string::npos;
+  CHECK(heard == (height_m == 0.0F));
 }
 
 }  // namespace

@@ -150,6 +150,73 @@ TEST_CASE("of two vehicles one above the other both tell that they met") {
   }
 }
 
+/// A slope that rises to the east by 1 in 5, from -200 m at x = -1000 m, and a house on it.
+city::City hillside() {
+  city::City city = city_of({{.low_m = {300.0, -10.0, 60.0}, .high_m = {320.0, 10.0, 90.0}}});
+  city.buildings[0].osm_id = 4711;
+  city.buildings[0].name = "Town Hall";
+  city.terrain = city::Terrain{.south_west_m = {-1000.0, -1000.0},
+                               .cell_m = 2000.0,
+                               .columns = 2,
+                               .rows = 2,
+                               .height_m = {-200.0F, 200.0F, -200.0F, 200.0F}};
+  return city;
+}
+
+TEST_CASE("starts count from the ground beneath, and what starts on a slope stands on it") {
+  const RunCity city{hillside()};
+  RunOfWorld memories{4, {0, 1}};
+  proto::WorldConfiguration configuration =
+      fleet_at({{-500.0, 0.0, 0.0}, {100.0, 50.0, 0.0}}, "stop");
+  for (const std::uint32_t number : {2U, 3U}) {
+    proto::WorldNode& fixed = *configuration.add_nodes();
+    fixed.set_node(number);
+    fixed.set_name("fixed" + std::to_string(number));
+    fixed.mutable_p_wb_start_m()->set_x(250.0);
+    fixed.mutable_p_wb_start_m()->set_z(number == 2 ? 0.0 : 1.5);
+  }
+  FleetSimulation simulation{configuration, memories.map(), &city};
+  const auto mapping = memories.map_fleet();
+  const shm::FleetMemoryReader fleet{mapping.bytes()};
+
+  simulation.begin();
+  for (int i = 0; i < 1000; ++i) {
+    simulation.step();
+  }
+
+  // A ball of 0.3 m on a slope of 1 in 5 touches it with its lowest point above the ground by
+  // 0.3 m (1 / cos - 1), cos = 5 / sqrt(26).
+  const double lift_m = 0.3 * (std::sqrt(26.0) / 5.0 - 1.0);
+  CHECK(fleet.state(0)->p_WB_m[0] == Approx(-500.0));
+  CHECK(fleet.state(0)->p_WB_m[2] == Approx(-100.0 + lift_m).margin(1e-5));
+  CHECK(fleet.state(1)->p_WB_m[2] == Approx(20.0 + lift_m).margin(1e-5));
+  CHECK(fleet.state(0)->flags == shm::NodeFlag::kOnGround);
+  CHECK(fleet.state(2)->p_WB_m[2] == Approx(50.0));
+  CHECK(fleet.state(2)->flags == shm::NodeFlag::kOnGround);
+  CHECK(fleet.state(3)->p_WB_m[2] == Approx(51.5));
+  CHECK(fleet.state(3)->flags == 0);
+  CHECK(report_of(simulation).collisions_size() == 0);
+}
+
+TEST_CASE("on a hill a start below the ground is refused, and one in a house by the house's name") {
+  const RunCity city{hillside()};
+  const RunOfWorld memories{1, {0}};
+  const auto refusal = [&](const Eigen::Vector3d& start_m) {
+    try {
+      const FleetSimulation simulation{fleet_at({start_m}, "stop"), memories.map(), &city};
+    } catch (const std::invalid_argument& error) {
+      return std::string{error.what()};
+    }
+    return std::string{};
+  };
+
+  CHECK_THAT(refusal({-500.0, 0.0, -1.0}),
+             Catch::Contains("'uav0'") && Catch::Contains("not below the ground"));
+  CHECK_THAT(refusal({310.0, 0.0, 5.0}),
+             Catch::Contains("uav0 starts at (310.00, 0.00, 67.00) m") &&
+                 Catch::Contains("building 0 (way 4711, 'Town Hall') is there"));
+}
+
 TEST_CASE("a building is called by what the map knows of it") {
   city::Building building;
   CHECK(building_label(building, 12) == "building 12");
