@@ -33,6 +33,9 @@ ALLOWED |= {
     "world/collision": PURE | {"world/surroundings", "world/dynamics"},
     "world/sensors": PURE | {"world/surroundings", "world/dynamics"},
     "world/actuation": PURE | {"proto"},
+    "camera/view": PURE,
+    "camera/scene": PURE | {"common/city/export", "camera/view"},
+    "camera/gl": PURE | {"camera/view", "camera/scene"},
     "netsim/makers": set(),
     "netsim/channel": PURE | {"netsim/makers"},
     "netsim/phy": PURE | {"netsim/makers", "netsim/channel"},
@@ -56,7 +59,7 @@ ALLOWED |= {
     "orchestrator/fetch": set(),
     "orchestrator/results": PURE | {"proto", "common/posix", "orchestrator/plan"},
 }
-for component in ("world", "netsim", "uav-agent", "ground-station", "orchestrator"):
+for component in ("world", "camera", "netsim", "uav-agent", "ground-station", "orchestrator"):
     # The rest of a component (app/, *_main.cc) may use its own folders, and no other component's.
     ALLOWED[component] = SHARED | {m for m in ALLOWED if m.startswith(component + "/")}
 ALLOWED["tests"] = set(ALLOWED)

@@ -3,6 +3,7 @@
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 
 namespace cuscus::posix {
 
@@ -10,6 +11,13 @@ bool try_realtime_scheduling(int priority) noexcept {
   static_cast<void>(::prctl(PR_SET_TIMERSLACK, 1UL));
   const sched_param parameter{.sched_priority = priority};
   return ::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameter) == 0;
+}
+
+void give_way_to_others() noexcept {
+  const sched_param parameter{.sched_priority = 0};
+  static_cast<void>(::sched_setscheduler(0, SCHED_BATCH, &parameter));
+  constexpr int kNicest = 19;
+  static_cast<void>(::setpriority(PRIO_PROCESS, 0, kNicest));
 }
 
 std::string scheduling_class() {
@@ -20,6 +28,8 @@ std::string scheduling_class() {
       return "SCHED_FIFO " + std::to_string(parameter.sched_priority);
     case SCHED_RR:
       return "SCHED_RR " + std::to_string(parameter.sched_priority);
+    case SCHED_BATCH:
+      return "SCHED_BATCH";
     default:
       return "SCHED_OTHER";
   }

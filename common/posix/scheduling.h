@@ -8,7 +8,11 @@ namespace cuscus::posix {
 /// when the kernel refuses, which is normal without CAP_SYS_NICE.
 bool try_realtime_scheduling(int priority) noexcept;
 
-/// What the calling thread runs under: "SCHED_FIFO 50", "SCHED_OTHER".
+/// Lets everybody else go first who wants the processor: SCHED_BATCH and the highest nice value,
+/// for the calling thread and those that it will start.
+void give_way_to_others() noexcept;
+
+/// What the calling thread runs under: "SCHED_FIFO 50", "SCHED_BATCH", "SCHED_OTHER".
 [[nodiscard]] std::string scheduling_class();
 
 /// Locks all memory, present and future; false when refused.
