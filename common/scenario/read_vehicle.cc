@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -10,6 +12,8 @@ using nlohmann::json;
 
 /// From the end of an arm to the tips of a rotor of 8 inches, the size that goes with such arms.
 constexpr double kRotorRadius_m = 0.1;
+/// Of a camera, along each axis.
+constexpr double kMostOffset_m = 2.0;
 
 Collision read_collision(const json* value, const std::string& path, double arm_m,
                          Problems& problems) {
@@ -105,6 +109,54 @@ std::optional<GnssSensor> read_gnss(const json* value, const std::string& path,
   return gnss;
 }
 
+CameraDirection read_camera_direction(ObjectReader& reader, const std::string& key,
+                                      const CameraDirection& fallback) {
+  const json* value = reader.child(key);
+  if (value == nullptr || *value == "forward") {
+    return value == nullptr ? fallback : kCameraForward;
+  }
+  if (*value == "down") {
+    return kCameraDown;
+  }
+  if (!value->is_object()) {
+    reader.problem(key, shown(*value) +
+                            " is not known; allowed: forward, down, or an object with roll, "
+                            "pitch and yaw");
+    return fallback;
+  }
+  ObjectReader angles{value, reader.path_of(key), reader.problems()};
+  const QuantityRange turn{kAngle, "-180 deg", "180 deg"};
+  const CameraDirection direction{.roll_rad = angles.quantity("roll", 0.0, turn),
+                                  .pitch_rad = angles.quantity("pitch", 0.0, turn),
+                                  .yaw_rad = angles.quantity("yaw", 0.0, turn)};
+  angles.finish();
+  return direction;
+}
+
+std::optional<CameraSensor> read_camera(const json* value, const std::string& path,
+                                        Problems& problems) {
+  if (value == nullptr ||
+      is_none(value, path, "width, height, rate, field, direction and offset", problems)) {
+    return std::nullopt;
+  }
+  CameraSensor camera;
+  ObjectReader reader{value, path, problems};
+  camera.width_px = reader.integer<std::uint32_t>("width", camera.width_px, {16, 1920});
+  camera.height_px = reader.integer<std::uint32_t>("height", camera.height_px, {16, 1080});
+  camera.period = reader.period_of_rate("rate", camera.period, "1 Hz", "60 Hz");
+  camera.field_rad = reader.quantity("field", camera.field_rad, {kAngle, "10 deg", "150 deg"});
+  camera.direction = read_camera_direction(reader, "direction", camera.direction);
+  camera.offset_m = reader.lengths("offset", camera.offset_m);
+  if (std::ranges::any_of(camera.offset_m,
+                          [](double along_m) { return std::abs(along_m) > kMostOffset_m; })) {
+    reader.problem("offset",
+                   "is further than 2 m from the vehicle's position; allowed: -2 m ... "
+                   "2 m ahead, to the left and up");
+  }
+  reader.finish();
+  return camera;
+}
+
 VehicleSensors read_sensors(const json* value, const std::string& path, Problems& problems) {
   VehicleSensors sensors;
   ObjectReader reader{value, path, problems};
@@ -112,6 +164,7 @@ VehicleSensors read_sensors(const json* value, const std::string& path, Problems
       read_ultrasonic(reader.child("ultrasonic"), reader.path_of("ultrasonic"), problems);
   sensors.lidar = read_lidar(reader.child("lidar"), reader.path_of("lidar"), problems);
   sensors.gnss = read_gnss(reader.child("gnss"), reader.path_of("gnss"), problems);
+  sensors.camera = read_camera(reader.child("camera"), reader.path_of("camera"), problems);
   reader.finish();
   return sensors;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -52,11 +53,32 @@ struct GnssSensor {
   double rate_noise_mps{0.05};
 };
 
+/// A camera looks ahead, then turned by roll, pitch and yaw as a body's attitude is.
+struct CameraDirection {
+  double roll_rad{0.0};
+  double pitch_rad{0.0};  ///< Positive: down.
+  double yaw_rad{0.0};
+};
+inline constexpr CameraDirection kCameraForward{};
+inline constexpr CameraDirection kCameraDown{
+    .roll_rad = 0.0, .pitch_rad = 1.5707963267948966, .yaw_rad = 0.0};
+
+/// Defaults are FL-AIR's, offset ours.
+struct CameraSensor {
+  std::uint32_t width_px{320};
+  std::uint32_t height_px{240};
+  SimClock::duration period{std::chrono::milliseconds{50}};
+  double field_rad{1.2217304763960306};  ///< Horizontal: 70 degrees.
+  CameraDirection direction{kCameraForward};
+  std::array<double, 3> offset_m{0.0, 0.0, 0.05};  ///< Ahead, to the left, up.
+};
+
 /// What a vehicle has besides IMU and motion capture.
 struct VehicleSensors {
   std::optional<UltrasonicSensor> ultrasonic;
   std::optional<LidarSensor> lidar;
   std::optional<GnssSensor> gnss;
+  std::optional<CameraSensor> camera;
 };
 
 /// FL-AIR's quadrotor; defaults are the ones of its simulator_x4.xml.

@@ -323,6 +323,21 @@ Json json_of(const std::optional<GnssSensor>& gnss) {
           {"rate_noise", format_quantity(gnss->rate_noise_mps, kSpeed)}};
 }
 
+Json json_of(const std::optional<CameraSensor>& camera) {
+  if (!camera) {
+    return "none";
+  }
+  return {{"width", camera->width_px},
+          {"height", camera->height_px},
+          {"rate", rate_text(camera->period)},
+          {"field", format_quantity(camera->field_rad, kAngle)},
+          {"direction",
+           {{"roll", format_quantity(camera->direction.roll_rad, kAngle)},
+            {"pitch", format_quantity(camera->direction.pitch_rad, kAngle)},
+            {"yaw", format_quantity(camera->direction.yaw_rad, kAngle)}}},
+          {"offset", lengths(camera->offset_m)}};
+}
+
 Json json_of(const X4Vehicle& x4) {
   return {{"model", "x4"},
           {"mass", format_quantity(x4.mass_kg, kMass)},
@@ -343,7 +358,8 @@ Json json_of(const X4Vehicle& x4) {
           {"sensors",
            {{"ultrasonic", json_of(x4.sensors.ultrasonic)},
             {"lidar", json_of(x4.sensors.lidar)},
-            {"gnss", json_of(x4.sensors.gnss)}}}};
+            {"gnss", json_of(x4.sensors.gnss)},
+            {"camera", json_of(x4.sensors.camera)}}}};
 }
 
 Json json_of(const CircleLayout& circle) {

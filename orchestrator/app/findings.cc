@@ -76,7 +76,7 @@ void add_failures(const LiveRun& run, std::vector<std::string>& failures) {
   if (run.end().kind == FlightEnd::Kind::kFailed) {
     failures.push_back(run.end().reason);
   }
-  for (const Service* const service : {run.netsim(), run.world()}) {
+  for (const Service* const service : {run.netsim(), run.camera(), run.world()}) {
     if (service == nullptr) {
       continue;
     }
@@ -100,6 +100,17 @@ void add_collisions(const Plan& plan, const LiveRun& run, RunOutcome& outcome) {
   }
   for (const proto::CollisionTally& tally : report->world().collisions()) {
     outcome.nodes.at(tally.node()).collisions = tally;
+  }
+}
+
+void add_cameras(const LiveRun& run, RunOutcome& outcome) {
+  const auto* const report = report_of(run.camera());
+  if (report == nullptr || !report->has_camera()) {
+    return;
+  }
+  outcome.cameras = report->camera();
+  for (const proto::CameraTally& tally : report->camera().cameras()) {
+    outcome.nodes.at(tally.node()).camera = tally;
   }
 }
 
@@ -187,6 +198,7 @@ RunOutcome run_outcome(const Plan& plan, const LiveRun& run, const Sampler& samp
          .programs = {}});
   }
   add_collisions(plan, run, outcome);
+  add_cameras(run, outcome);
   if (run.crew() == nullptr) {
     return outcome;
   }

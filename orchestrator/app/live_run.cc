@@ -67,6 +67,7 @@ bool LiveRun::guarded(const Body& body) {
 bool LiveRun::set_up() {
   return guarded([&] {
     start_world();
+    start_camera();
     reserve_processor();
     build_nodes();
     start_netsim();
@@ -130,13 +131,24 @@ void LiveRun::stop_all() {
       }
     }
   }
-  for (Service* const service : {netsim_.get(), world_.get()}) {
+  const auto started = services();
+  for (auto service = started.rbegin(); service != started.rend(); ++service) {
+    (*service)->component().stop(reason);
+  }
+  settle(kServiceStopLimit, [&] {
+    return std::ranges::all_of(
+        started, [](const Service* service) { return service->status().has_value(); });
+  });
+}
+
+std::vector<Service*> LiveRun::services() const {
+  std::vector<Service*> started;
+  for (Service* const service : {world_.get(), camera_.get(), netsim_.get()}) {
     if (service != nullptr) {
-      service->component().stop(reason);
+      started.push_back(service);
     }
   }
-  settle(kServiceStopLimit,
-         [&] { return (!netsim_ || netsim_->status()) && (!world_ || world_->status()); });
+  return started;
 }
 
 double LiveRun::sim_time_s() const {

@@ -72,6 +72,8 @@ class LiveRun {
   [[nodiscard]] const NodeCrew* crew() const noexcept { return crew_.get(); }
   [[nodiscard]] const Service* world() const noexcept { return world_.get(); }
   [[nodiscard]] const Service* netsim() const noexcept { return netsim_.get(); }
+  /// Null when no vehicle has a camera.
+  [[nodiscard]] const Service* camera() const noexcept { return camera_.get(); }
   /// Frames that the kernel dropped on the way to netsim, per node.
   [[nodiscard]] std::vector<std::uint64_t> tap_drops() const;
   /// Frames that the kernel dropped on their way from netsim to the nodes.
@@ -97,6 +99,7 @@ class LiveRun {
   /// Numbers of the nodes that fly.
   [[nodiscard]] std::vector<RunMemories::VehicleNode> vehicles() const;
   void start_world();
+  void start_camera();
   void reserve_processor();
   void build_nodes();
   void start_netsim();
@@ -117,6 +120,8 @@ class LiveRun {
   void wait_step(std::chrono::steady_clock::time_point deadline);
   /// Runs what is ready, for a moment at most.
   void serve();
+  /// Those that have been started, in that order.
+  [[nodiscard]] std::vector<Service*> services() const;
   [[nodiscard]] std::string progress_text() const;
   [[nodiscard]] double sim_time_s() const;
   [[nodiscard]] posix::ChildSpecification service_specification(const char* program,
@@ -140,6 +145,7 @@ class LiveRun {
   std::int64_t start_monotonic_ns_{0};
   RunMemories memories_;
   std::unique_ptr<Service> world_;
+  std::unique_ptr<Service> camera_;
   std::optional<EmulatorProcessor> processor_;
   std::optional<netlink::SendStampRing> send_stamps_;
   std::unique_ptr<node::Fleet> fleet_;

@@ -1,6 +1,7 @@
 // How a run is set up: LiveRun's beginning.
 #include <spdlog/spdlog.h>
 
+#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -19,7 +20,7 @@ constexpr std::chrono::milliseconds kReadyLimit{20'000};
 /// From Start to SimTime 0: every child has read its Start by then.
 constexpr std::int64_t kStartLead_ns = 100'000'000;
 
-enum Services : std::uint32_t { kWorldService = 0, kNetsimService = 1 };
+enum Services : std::uint32_t { kWorldService = 0, kNetsimService = 1, kCameraService = 2 };
 
 netlink::Ipv4Address address_of(const std::string& text) {
   const std::uint32_t number = scenario::parse_ipv4(text).value();
@@ -48,13 +49,27 @@ std::vector<node::NodeNetwork> networks_of(const Plan& plan) {
   return networks;
 }
 
+/// Of the node's camera, if it has one.
+std::optional<shm::PictureShape> pictures_of(std::uint32_t node, const Plan& plan) {
+  if (plan.cameras) {
+    for (const proto::CameraNode& camera : plan.cameras->cameras()) {
+      if (camera.node() == node) {
+        return shm::PictureShape{.width_px = camera.width_px(), .height_px = camera.height_px()};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<RunMemories::VehicleNode> LiveRun::vehicles() const {
   std::vector<RunMemories::VehicleNode> vehicles;
   for (const proto::WorldNode& node : plan_.world.nodes()) {
     if (node.has_multirotor()) {
-      vehicles.push_back({.node = node.node(), .has_lidar = node.has_lidar()});
+      vehicles.push_back({.node = node.node(),
+                          .has_lidar = node.has_lidar(),
+                          .pictures = pictures_of(node.node(), plan_)});
     }
   }
   return vehicles;
@@ -68,7 +83,7 @@ void LiveRun::start_world() {
       {Descriptors::KIND_CLOCK_PAGE, 0, memories_.clock()},
       {Descriptors::KIND_FLEET_MEMORY, 0, memories_.fleet()},
       {Descriptors::KIND_MOTION_CAPTURE_MEMORY, 0, memories_.motion_capture()}};
-  for (const auto& [node, has_lidar] : vehicles()) {
+  for (const auto& [node, has_lidar, pictures] : vehicles()) {
     given.push_back({Descriptors::KIND_SENSOR_MEMORY, node, memories_.sensors(node)});
     given.push_back({Descriptors::KIND_ACTUATOR_MEMORY, node, memories_.actuators(node)});
   }
@@ -81,6 +96,33 @@ void LiveRun::start_world() {
   await([] { return "the world to be ready"; }, kReadyLimit,
         [&] { return world_->component().is_ready(); });
   memories_.world_has_mapped();
+}
+
+void LiveRun::start_camera() {
+  if (!plan_.cameras) {
+    return;
+  }
+  const auto log = settings_.directory.create_log("camera.log");
+  auto specification = service_specification("cuscus-camera", kCameraService, log.get());
+  specification.realtime = false;
+  // Its user has no home to keep compiled shaders in; Mesa's software draws in one thread.
+  specification.environment.insert(specification.environment.end(),
+                                   {"MESA_SHADER_CACHE_DISABLE=true", "LP_NUM_THREADS=0"});
+  camera_ = std::make_unique<Service>(loop_, "camera", std::move(specification), [] {});
+  std::vector<GivenDescriptor> given{{Descriptors::KIND_FLEET_MEMORY, 0, memories_.fleet()}};
+  for (const proto::CameraNode& camera : plan_.cameras->cameras()) {
+    given.push_back(
+        {Descriptors::KIND_CAMERA_MEMORY, camera.node(), memories_.camera(camera.node())});
+  }
+  if (settings_.city) {
+    given.push_back({Descriptors::KIND_CITY, 0, settings_.city.get()});
+  }
+  proto::Configure configure;
+  *configure.mutable_camera() = *plan_.cameras;
+  camera_->component().configure(given, configure);
+  await([] { return "the cameras to be ready"; }, kReadyLimit,
+        [&] { return camera_->component().is_ready(); });
+  memories_.camera_has_mapped();
 }
 
 void LiveRun::reserve_processor() {
@@ -146,7 +188,7 @@ void LiveRun::start_netsim() {
   if (settings_.frame_log) {
     given.push_back({Descriptors::KIND_FRAME_LOG, 0, settings_.frame_log.get()});
   }
-  for (const auto& [node, has_lidar] : vehicles()) {
+  for (const auto& [node, has_lidar, pictures] : vehicles()) {
     given.push_back({Descriptors::KIND_RADIO_READINGS, node, memories_.radio_readings(node)});
   }
   if (settings_.reception_log) {
@@ -200,6 +242,9 @@ void LiveRun::start_clock() {
   memories_.start(start_monotonic_ns_);
   world_->component().start(start_monotonic_ns_);
   netsim_->component().start(start_monotonic_ns_);
+  if (camera_) {
+    camera_->component().start(start_monotonic_ns_);
+  }
   crew_->start(start_monotonic_ns_);
   const auto start = steady_clock::time_point{std::chrono::nanoseconds{start_monotonic_ns_}};
   while (steady_clock::now() < start) {

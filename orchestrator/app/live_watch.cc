@@ -36,11 +36,9 @@ void LiveRun::check_trouble() const {
   if (signal_number_ != 0) {
     throw RunInterrupted{};
   }
-  for (const Service* const service : {world_.get(), netsim_.get()}) {
-    if (service != nullptr) {
-      if (const auto trouble = service->trouble(); !trouble.empty()) {
-        throw RunFailed{trouble};
-      }
+  for (const Service* const service : services()) {
+    if (const auto trouble = service->trouble(); !trouble.empty()) {
+      throw RunFailed{trouble};
     }
   }
   if (crew_ && !crew_->trouble().empty()) {
@@ -49,7 +47,7 @@ void LiveRun::check_trouble() const {
 }
 
 void LiveRun::check_heartbeats() {
-  for (Service* const service : {world_.get(), netsim_.get()}) {
+  for (Service* const service : services()) {
     if (service->hangs()) {
       throw RunFailed{fmt::format("{} hangs: no heartbeat for {} s", service->component().name(),
                                   HangWatch::kSilenceLimit.count())};

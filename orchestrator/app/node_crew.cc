@@ -202,6 +202,9 @@ void NodeCrew::configure(NodeProgram& program) {
         {Descriptors::KIND_ACTUATOR_MEMORY, node.index, memories.actuators(node.index)});
     given.push_back(
         {Descriptors::KIND_RADIO_READINGS, node.index, memories.radio_readings(node.index)});
+    if (const int camera = memories.camera(node.index); camera >= 0) {
+      given.push_back({Descriptors::KIND_CAMERA_MEMORY, node.index, camera});
+    }
     if (node.sees_motion_capture) {
       given.push_back({Descriptors::KIND_MOTION_CAPTURE_MEMORY, 0, memories.motion_capture()});
     }

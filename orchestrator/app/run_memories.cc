@@ -19,11 +19,15 @@ RunMemories::RunMemories(std::uint32_t node_count, const std::vector<VehicleNode
       motion_capture_{create_shared_memory("cuscus-motion-capture",
                                            shm::MotionCaptureMemoryWriter::byte_size(node_count))} {
   seal_against_new_writers(clock_);
-  for (const auto& [node, has_lidar] : vehicles) {
+  for (const auto& [node, has_lidar, pictures] : vehicles) {
     sensors_[node] =
         create_shared_memory("cuscus-sensors", shm::SensorMemoryWriter::byte_size(has_lidar));
     radio_readings_[node] = create_shared_memory("cuscus-radio-readings",
                                                  shm::RadioReadingsWriter::byte_size(node_count));
+    if (pictures) {
+      cameras_[node] =
+          create_shared_memory("cuscus-camera", shm::CameraMemoryWriter::byte_size(*pictures));
+    }
     auto& actuators = actuators_[node] =
         create_shared_memory("cuscus-actuators", shm::ActuatorMemoryWriter::byte_size());
     shm::ActuatorMemoryWriter::lay_out(MemoryMapping::read_write(actuators).writable_bytes());
@@ -38,6 +42,12 @@ void RunMemories::world_has_mapped() {
   }
   fleet_mapping_ = MemoryMapping::read_only(fleet_);
   fleet_reader_.emplace(fleet_mapping_.bytes());
+}
+
+void RunMemories::camera_has_mapped() {
+  for (const auto& [node, memory] : cameras_) {
+    seal_against_new_writers(memory);
+  }
 }
 
 void RunMemories::netsim_has_mapped() {

@@ -7,6 +7,7 @@
 
 #include "common/posix/shared_memory.h"
 #include "common/posix/unique_fd.h"
+#include "proto/shm/camera_memory.h"
 #include "proto/shm/clock_page.h"
 #include "proto/shm/fleet_memory.h"
 #include "proto/shm/radio_memory.h"
@@ -20,6 +21,7 @@ class RunMemories {
   struct VehicleNode {
     std::uint32_t node;
     bool has_lidar;
+    std::optional<shm::PictureShape> pictures{};  ///< Of its camera, if it has one.
   };
 
   /// For nodes 0 ... node_count - 1, of which `vehicles` have sensors and actuators.
@@ -33,6 +35,11 @@ class RunMemories {
   [[nodiscard]] int radio_readings(std::uint32_t node) const {
     return radio_readings_.at(node).get();
   }
+  /// -1: it has none.
+  [[nodiscard]] int camera(std::uint32_t node) const {
+    const auto found = cameras_.find(node);
+    return found == cameras_.end() ? -1 : found->second.get();
+  }
   [[nodiscard]] int actuators(std::uint32_t node) const { return actuators_.at(node).get(); }
 
   /// Sets SimTime 0.
@@ -40,6 +47,8 @@ class RunMemories {
 
   /// The world is ready: from now on nobody else can come to write what it writes.
   void world_has_mapped();
+  /// Likewise cuscus-camera.
+  void camera_has_mapped();
   /// Likewise netsim.
   void netsim_has_mapped();
 
@@ -61,6 +70,7 @@ class RunMemories {
   std::map<std::uint32_t, posix::UniqueFd> sensors_;
   std::map<std::uint32_t, posix::UniqueFd> actuators_;
   std::map<std::uint32_t, posix::UniqueFd> radio_readings_;
+  std::map<std::uint32_t, posix::UniqueFd> cameras_;
   posix::MemoryMapping fleet_mapping_;
   posix::MemoryMapping radio_mapping_;
   std::optional<shm::FleetMemoryReader> fleet_reader_;

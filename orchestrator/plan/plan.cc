@@ -10,6 +10,7 @@
 
 #include "common/scenario/names.h"
 #include "common/scenario/placeholders.h"
+#include "orchestrator/plan/camera_configuration.h"
 #include "orchestrator/plan/capacity.h"
 #include "orchestrator/plan/radio_configuration.h"
 #include "orchestrator/plan/world_configuration.h"
@@ -69,6 +70,7 @@ class Planner {
     plan_hosts();
     plan_.world = world_configuration(scenario_, plan_.nodes);
     plan_.world.set_realtime_priority(priority(scenario_, kWorldPriority));
+    plan_.cameras = camera_configuration(scenario_, plan_.nodes);
     plan_radio();
     plan_.capacity = estimate_capacity(scenario_);
     return std::move(plan_);

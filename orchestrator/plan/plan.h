@@ -92,6 +92,8 @@ struct Plan {
   proto::RadioConfiguration radio;
   /// run_id is empty: the run fills it in.
   std::optional<proto::GroundStationConfiguration> ground_station;
+  /// Nothing when no vehicle has a camera.
+  std::optional<proto::CameraConfiguration> cameras;
   std::optional<std::uint16_t> page_port;  ///< On 127.0.0.1, when there is a page.
   bool motion_capture_memory{};            ///< Some agent needs it.
   bool record_frames{};

@@ -81,6 +81,17 @@ Json json_of(const proto::GroundStationReport& report) {
           {"cpu_s", report.cpu_s()}};
 }
 
+Json json_of(const proto::CameraReport& report) {
+  return {{"renderer", report.renderer()},
+          {"scheduler", report.scheduler()},
+          {"drawing", json_of(report.drawing())},
+          {"cpu_s", report.cpu_s()}};
+}
+
+Json json_of(const proto::CameraTally& tally) {
+  return {{"pictures", tally.pictures()}, {"late", tally.late()}, {"skipped", tally.skipped()}};
+}
+
 Json json_of(const shm::RadioTally& tally) {
   return {{"offered", tally.offered},
           {"transmissions", tally.transmissions},

@@ -16,6 +16,8 @@ namespace cuscus::orchestrator {
 [[nodiscard]] nlohmann::ordered_json json_of(const proto::CollisionTally& tally);
 [[nodiscard]] nlohmann::ordered_json json_of(const proto::AgentReport& report);
 [[nodiscard]] nlohmann::ordered_json json_of(const proto::GroundStationReport& report);
+[[nodiscard]] nlohmann::ordered_json json_of(const proto::CameraReport& report);
+[[nodiscard]] nlohmann::ordered_json json_of(const proto::CameraTally& tally);
 [[nodiscard]] nlohmann::ordered_json json_of(const shm::RadioTally& tally);
 [[nodiscard]] nlohmann::ordered_json json_of(const shm::CommandTally& tally);
 

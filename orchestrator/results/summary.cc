@@ -47,6 +47,7 @@ Json node_json(const NodeOutcome& node) {
           {"collisions", node.collisions ? json_of(*node.collisions) : Json(nullptr)},
           {"agent", node.agent ? json_of(*node.agent) : Json(nullptr)},
           {"formation_error", error_json(node.formation_error)},
+          {"camera", node.camera ? json_of(*node.camera) : Json(nullptr)},
           {"programs", programs}};
 }
 
@@ -107,6 +108,7 @@ Json to_json(const RunOutcome& run, const Fidelity& fidelity) {
           {"formation_error", error_json(run.formation_error)},
           {"radio_total", radio_total(run.nodes)},
           {"ground_station", run.ground_station ? json_of(*run.ground_station) : Json(nullptr)},
+          {"cameras", run.cameras ? json_of(*run.cameras) : Json(nullptr)},
           {"nodes", nodes}};
 }
 

@@ -53,6 +53,7 @@ struct NodeOutcome {
   std::optional<proto::AgentReport> agent;
   std::optional<FormationErrorSummary> formation_error;
   std::vector<ProgramOutcome> programs;
+  std::optional<proto::CameraTally> camera{};  ///< Of a vehicle with a camera.
 };
 
 /// The whole run.
@@ -71,6 +72,7 @@ struct RunOutcome {
   std::vector<NodeOutcome> nodes;
   std::optional<FormationErrorSummary> formation_error;  ///< Of all UAVs together.
   std::optional<proto::GroundStationReport> ground_station;
+  std::optional<proto::CameraReport> cameras{};
 };
 
 /// Content of summary.json.

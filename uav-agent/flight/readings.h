@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -64,6 +65,18 @@ struct GnssReading {
   std::uint32_t satellites_in_view = 0;   ///< Above the receiver's mask, hidden ones included.
   std::uint32_t satellites_received = 0;  ///< Of these; all of them make the fix.
   std::optional<GnssFix> fix;             ///< Nothing: too few, or in too bad a geometry.
+};
+
+/// One picture of a camera: RGB8, row by row from the top, rgb[3 * (row * width_px + column)] is
+/// red. A point (x, y, z) of the camera's frame (right, down, ahead) is seen at column width_px/2 +
+/// focal_px x/z and row height_px/2 + focal_px y/z from the top left corner.
+struct CameraPicture {
+  SimTime time;
+  std::uint64_t sequence = 0;  ///< From 1; a number left out is a picture that was not made.
+  std::uint32_t width_px = 0;
+  std::uint32_t height_px = 0;
+  double focal_px = 0.0;
+  std::vector<std::byte> rgb;
 };
 
 /// Commands of an X4's motors, 0 ... 1: front left, front right, rear left, rear right.

@@ -10,6 +10,7 @@
 
 namespace cuscus::sdk {
 
+using flight::CameraPicture;
 using flight::GnssFix;
 using flight::GnssReading;
 using flight::ImuReading;
@@ -35,10 +36,13 @@ class Sensors {
   [[nodiscard]] virtual std::optional<ImuReading> imu() const = 0;
   /// Of this vehicle.
   [[nodiscard]] virtual std::optional<MotionCaptureReading> motion_capture() const = 0;
-  /// Nothing ever of a vehicle that has none; likewise lidar() and gnss().
+  /// Nothing ever of a vehicle that has none; likewise what follows.
   [[nodiscard]] virtual std::optional<UltrasonicReading> ultrasonic() const { return {}; }
   [[nodiscard]] virtual std::optional<LidarScan> lidar() const { return {}; }
   [[nodiscard]] virtual std::optional<GnssReading> gnss() const { return {}; }
+  [[nodiscard]] virtual std::optional<CameraPicture> camera() const { return {}; }
+  /// Pictures that the camera has made: whether there is a newer one, without copying it.
+  [[nodiscard]] virtual std::uint64_t camera_pictures() const { return 0; }
 };
 
 /// The motion-capture system's view of all vehicles, where there is one to listen to.

@@ -114,7 +114,8 @@ TEST_CASE("A vehicle has the view that its group is given, and no other") {
       {"name": "a", "vehicle": {"model": "x4", "collision": {"behaviour": "crash"},
        "sensors": {"ultrasonic": {"direction": "left", "beam": "40 deg"},
                    "lidar": {"rays": 8, "elevations": ["-10 deg", "10 deg"]},
-                   "gnss": {"rate": "10 Hz", "mask": "18 deg", "drift": "3 m"}}}},
+                   "gnss": {"rate": "10 Hz", "mask": "18 deg", "drift": "3 m"},
+                   "camera": {"direction": "down", "height": 200, "offset": ["5 cm", "0 m", "0 m"]}}}},
       {"name": "b", "vehicle": {"model": "x4", "arm": "50 cm"},
        "start": {"layout": "list", "positions": [["5 m", "0 m", "0 m"]]}}]})");
 
@@ -137,12 +138,25 @@ TEST_CASE("A vehicle has the view that its group is given, and no other") {
   CHECK_FALSE(plan.world.nodes(1).has_ultrasonic());
   CHECK_FALSE(plan.world.nodes(1).has_lidar());
   CHECK(plan.world.nodes(1).collision().radius_m() == Approx(0.6));  // its arm and 10 cm
+  REQUIRE(plan.cameras);
+  REQUIRE(plan.cameras->cameras_size() == 1);
+  const proto::CameraNode& camera = plan.cameras->cameras(0);
+  CHECK(camera.node() == 0);
+  CHECK(camera.period_ns() == 50'000'000);
+  CHECK(camera.width_px() == 320);
+  CHECK(camera.height_px() == 200);
+  CHECK(camera.field_rad() == Approx(1.22173048));
+  CHECK(camera.pitch_rad() == Approx(1.57079633));
+  CHECK(camera.p_bc_m().x() == 0.05);
+  REQUIRE(plan.cameras->bodies_size() == 3);  // two vehicles and the ground station
+  CHECK(plan.cameras->bodies(1).size_m().x() == Approx(1.2));
 }
 
 TEST_CASE("Two pings become two fixed nodes with a command each and nothing else") {
   const Plan plan = make_plan(scenario::load_scenario(kFolder / "two-pings.json"));
 
   REQUIRE(plan.nodes.size() == 2);
+  CHECK_FALSE(plan.cameras);
   CHECK_FALSE(plan.ground_station);
   CHECK_FALSE(plan.page_port);
   for (const NodePlan& node : plan.nodes) {

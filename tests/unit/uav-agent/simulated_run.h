@@ -9,6 +9,7 @@
 #include "common/posix/monotonic_clock.h"
 #include "common/posix/shared_memory.h"
 #include "proto/control.pb.h"
+#include "proto/shm/camera_memory.h"
 #include "proto/shm/clock_page.h"
 #include "proto/shm/motion_capture_memory.h"
 #include "proto/shm/radio_readings.h"
@@ -21,6 +22,7 @@ class SimulatedRun {
  public:
   static constexpr std::uint32_t kNode = 2;
   static constexpr std::uint32_t kNodes = 4;
+  static constexpr shm::PictureShape kPictures{.width_px = 20, .height_px = 16, .focal_px = 12.5};
 
   /// Sends descriptors and `configuration`.
   void configure(const proto::AgentConfiguration& configuration, bool with_fleet = true) {
@@ -36,14 +38,15 @@ class SimulatedRun {
     name(Descriptors::KIND_SENSOR_MEMORY, kNode);
     name(Descriptors::KIND_ACTUATOR_MEMORY, kNode);
     name(Descriptors::KIND_RADIO_READINGS, kNode);
+    name(Descriptors::KIND_CAMERA_MEMORY, kNode);
     name(Descriptors::KIND_MOTION_CAPTURE_MEMORY, 0);
-    const std::array fds{clock_fd_.get(), sensor_fd_.get(), actuator_fd_.get(), radio_fd_.get(),
-                         fleet_fd_.get()};
+    const std::array fds{clock_fd_.get(), sensor_fd_.get(), actuator_fd_.get(),
+                         radio_fd_.get(), camera_fd_.get(), fleet_fd_.get()};
     if (with_fleet) {
       orchestrator.send(envelope, fds);
     } else {
       items->mutable_items()->RemoveLast();
-      orchestrator.send(envelope, std::span{fds}.first(4));
+      orchestrator.send(envelope, std::span{fds}.first(5));
     }
     proto::Envelope configure;
     *configure.mutable_configure()->mutable_agent() = configuration;
@@ -94,11 +97,14 @@ class SimulatedRun {
       posix::create_shared_memory("fleet", shm::MotionCaptureMemoryWriter::byte_size(kNodes));
   posix::UniqueFd radio_fd_ =
       posix::create_shared_memory("radio", shm::RadioReadingsWriter::byte_size(kNodes));
+  posix::UniqueFd camera_fd_ =
+      posix::create_shared_memory("camera", shm::CameraMemoryWriter::byte_size(kPictures));
   posix::MemoryMapping clock_map_ = posix::MemoryMapping::read_write(clock_fd_);
   posix::MemoryMapping sensor_map_ = posix::MemoryMapping::read_write(sensor_fd_);
   posix::MemoryMapping actuator_map_ = laid_out(actuator_fd_);
   posix::MemoryMapping fleet_map_ = posix::MemoryMapping::read_write(fleet_fd_);
   posix::MemoryMapping radio_map_ = posix::MemoryMapping::read_write(radio_fd_);
+  posix::MemoryMapping camera_map_ = posix::MemoryMapping::read_write(camera_fd_);
 
  public:
   ipc::ControlSocket& orchestrator = sockets_.first;
@@ -109,6 +115,7 @@ class SimulatedRun {
   shm::MotionCaptureMemoryWriter fleet{fleet_map_.writable_bytes(), kNodes};
   /// Its threshold is -82 dBm.
   shm::RadioReadingsWriter radio{radio_map_.writable_bytes(), kNodes, -82.0F};
+  shm::CameraMemoryWriter camera{camera_map_.writable_bytes(), kPictures};
   shm::ActuatorMemoryReader actuators{actuator_map_.bytes()};
 };
 

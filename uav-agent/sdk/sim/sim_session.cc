@@ -27,6 +27,9 @@ SimVehicle::Memories mapped(ipc::ChildSession& session, std::uint32_t node) {
   if (const auto radio = session.take_if_given(Descriptors::KIND_RADIO_READINGS, node)) {
     memories.radio = MemoryMapping::read_only(*radio);
   }
+  if (const auto camera = session.take_if_given(Descriptors::KIND_CAMERA_MEMORY, node)) {
+    memories.camera = MemoryMapping::read_only(*camera);
+  }
   return memories;
 }
 

@@ -39,6 +39,7 @@ SimVehicle::SimVehicle(Memories memories)
       actuator_mapping_{std::move(memories.actuators)},
       fleet_mapping_{std::move(memories.fleet)},
       radio_mapping_{std::move(memories.radio)},
+      camera_mapping_{std::move(memories.camera)},
       sensor_reader_{sensor_mapping_.bytes()},
       actuator_writer_{actuator_mapping_.writable_bytes()} {
   if (fleet_mapping_) {
@@ -46,6 +47,9 @@ SimVehicle::SimVehicle(Memories memories)
   }
   if (radio_mapping_) {
     radio_reader_.emplace(radio_mapping_->bytes());
+  }
+  if (camera_mapping_) {
+    camera_reader_.emplace(camera_mapping_->bytes());
   }
 }
 
@@ -119,6 +123,29 @@ std::optional<GnssReading> SimVehicle::gnss() const {
                             .vdop = reading->vdop};
   }
   return converted;
+}
+
+std::optional<CameraPicture> SimVehicle::camera() const {
+  if (!camera_reader_) {
+    return std::nullopt;
+  }
+  const shm::PictureShape& shape = camera_reader_->shape();
+  CameraPicture picture{.time = {},
+                        .width_px = shape.width_px,
+                        .height_px = shape.height_px,
+                        .focal_px = shape.focal_px,
+                        .rgb = std::vector<std::byte>(shape.byte_size())};
+  const auto frame = camera_reader_->read(picture.rgb);
+  if (!frame) {
+    return std::nullopt;
+  }
+  picture.time = sim_time(frame->sim_time_ns);
+  picture.sequence = frame->sequence;
+  return picture;
+}
+
+std::uint64_t SimVehicle::camera_pictures() const {
+  return camera_reader_ ? camera_reader_->published() : 0;
 }
 
 std::optional<MotionCaptureReading> SimVehicle::motion_capture_of(std::uint32_t node) const {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/posix/shared_memory.h"
+#include "proto/shm/camera_memory.h"
 #include "proto/shm/clock_page.h"
 #include "proto/shm/motion_capture_memory.h"
 #include "proto/shm/radio_readings.h"
@@ -40,6 +41,7 @@ class SimVehicle final : public Vehicle,
     posix::MemoryMapping actuators;               ///< Writable.
     std::optional<posix::MemoryMapping> fleet{};  ///< Motion capture of all vehicles.
     std::optional<posix::MemoryMapping> radio{};  ///< Without, the radio hears nobody.
+    std::optional<posix::MemoryMapping> camera{};
   };
 
   /// @throws shm::LayoutError when a memory is not what it should be.
@@ -59,6 +61,8 @@ class SimVehicle final : public Vehicle,
   [[nodiscard]] std::optional<UltrasonicReading> ultrasonic() const override;
   [[nodiscard]] std::optional<LidarScan> lidar() const override;
   [[nodiscard]] std::optional<GnssReading> gnss() const override;
+  [[nodiscard]] std::optional<CameraPicture> camera() const override;
+  [[nodiscard]] std::uint64_t camera_pictures() const override;
   [[nodiscard]] std::optional<MotionCaptureReading> motion_capture_of(
       std::uint32_t node) const override;
   [[nodiscard]] std::vector<Neighbour> neighbours() const override;
@@ -70,10 +74,12 @@ class SimVehicle final : public Vehicle,
   posix::MemoryMapping actuator_mapping_;
   std::optional<posix::MemoryMapping> fleet_mapping_;
   std::optional<posix::MemoryMapping> radio_mapping_;
+  std::optional<posix::MemoryMapping> camera_mapping_;
   shm::SensorMemoryReader sensor_reader_;
   shm::ActuatorMemoryWriter actuator_writer_;
   std::optional<shm::MotionCaptureMemoryReader> fleet_reader_;
   std::optional<shm::RadioReadingsReader> radio_reader_;
+  std::optional<shm::CameraMemoryReader> camera_reader_;
   std::uint64_t command_sequence_ = 0;
 };
 

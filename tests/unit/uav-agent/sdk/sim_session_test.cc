@@ -108,6 +108,20 @@ TEST_CASE("a vehicle shows what the world writes, and its commands reach the wor
   CHECK(fix.longitude_deg == 2.5);
   CHECK(fix.hdop == 1.25);
 
+  CHECK_FALSE(vehicle.sensors().camera());
+  CHECK(vehicle.sensors().camera_pictures() == 0);
+  std::vector<std::byte> rgb(SimulatedRun::kPictures.byte_size(), std::byte{1});
+  rgb[3 * (2 * 20 + 7) + 1] = std::byte{200};
+  run.camera.publish({.sim_time_ns = 9, .sequence = 6, .p_WC_m = {}, .q_WC = {}}, rgb);
+  CHECK(vehicle.sensors().camera_pictures() == 1);
+  const auto picture = vehicle.sensors().camera().value();
+  CHECK(picture.time == sim_time(9));
+  CHECK(picture.sequence == 6);
+  CHECK(picture.width_px == 20);
+  CHECK(picture.height_px == 16);
+  CHECK(picture.focal_px == 12.5);
+  CHECK(picture.rgb == rgb);
+
   vehicle.actuators().set_motors({0.1, 0.2, 0.3, 0.4}, sim_time(77));
   vehicle.actuators().set_motors({0.5, 0.6, 0.7, 0.8}, sim_time(78));
   const auto command = run.actuators.command().value();
