@@ -38,8 +38,8 @@ void check_tun() {
 
 std::filesystem::path check_own_programs() {
   auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  for (const char* const program :
-       {"cuscus-init", "cuscus-netsim", "cuscus-world", "cuscus-agent", "cuscus-gcs"}) {
+  for (const char* const program : {"cuscus-init", "cuscus-netsim", "cuscus-world", "cuscus-camera",
+                                    "cuscus-agent", "cuscus-gcs"}) {
     if (::access((folder / program).c_str(), X_OK) != 0) {
       throw UsageError{
           fmt::format("{} is missing beside {}", program, (folder / "cuscus").native())};

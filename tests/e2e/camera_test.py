@@ -1,5 +1,7 @@
 """A vehicle in flight sees through its camera what its pose implies."""
 
+import os
+import signal
 import unittest
 
 from cuscus_run import BIN, Run, descendants, program_of
@@ -115,6 +117,15 @@ class Camera(unittest.TestCase):
         distances = [b - a for a, b in zip(steps, steps[1:]) if b - a > 2]
         expected = picture.focal / (picture.p_m[2] + 0.05)
         self.assertTrue(all(abs(d - expected) < 4 for d in distances), (distances, expected))
+
+    def test_a_dead_camera_ends_the_run_by_its_name(self):
+        with Run(scenario({}), "--no-page") as run:
+            run.until_flying()
+            (camera,) = [pid for pid in descendants(run.process.pid)
+                         if program_of(pid) == "cuscus-camera"]
+            os.kill(camera, signal.SIGKILL)
+            self.assertEqual(run.wait(30), 1)
+            self.assertIn("camera ended: signal 9", run.summary["end_reason"])
 
     def test_without_cameras_there_is_no_process_for_them(self):
         with Run(scenario("none"), "--no-page", "--duration", "2s") as run:
