@@ -66,8 +66,10 @@ class Camera(unittest.TestCase):
             self.assertIn(run.wait(), (0, 3), run.stderr)
             log = run.log("eye0-agent.log").splitlines()
             tally = run.node("eye0")["camera"]
-            # 13 s of 20 Hz, less what a busy machine leaves out, which is told.
-            self.assertAlmostEqual(tally["pictures"] + tally["skipped"], 260, delta=3)
+            # 13 s of 20 Hz, less what a busy machine leaves out, which is told up to the last
+            # picture that was begun.
+            self.assertLessEqual(tally["pictures"] + tally["skipped"], 263)
+            self.assertGreater(tally["pictures"] + tally["skipped"], 220)
             self.assertGreater(tally["pictures"], 100)
             seen = next(line for line in log if line.startswith("pictures ")).split()
             self.assertGreater(int(seen[1]), 0.8 * tally["pictures"])
