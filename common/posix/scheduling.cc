@@ -16,8 +16,8 @@ bool try_realtime_scheduling(int priority) noexcept {
 void give_way_to_others() noexcept {
   const sched_param parameter{.sched_priority = 0};
   static_cast<void>(::sched_setscheduler(0, SCHED_BATCH, &parameter));
-  constexpr int kNicest = 19;
-  static_cast<void>(::setpriority(PRIO_PROCESS, 0, kNicest));
+  constexpr int kNiceness = 10;
+  static_cast<void>(::setpriority(PRIO_PROCESS, 0, kNiceness));
 }
 
 std::string scheduling_class() {
