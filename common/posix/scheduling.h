@@ -8,7 +8,7 @@ namespace cuscus::posix {
 /// when the kernel refuses, which is normal without CAP_SYS_NICE.
 bool try_realtime_scheduling(int priority) noexcept;
 
-/// Lets everybody else go first who wants the processor: SCHED_BATCH and the highest nice value,
+/// Lets everybody else go first who wants the processor: SCHED_BATCH at nice 10,
 /// for the calling thread and those that it will start.
 void give_way_to_others() noexcept;
 
