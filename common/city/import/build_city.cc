@@ -107,7 +107,7 @@ Geodetic origin_of(const GeoBox& box) {
 /// The city's ground, and what is wrong with it.
 Terrain terrain_of(const AsciiGrid& grid, const TerrainFile& file, const LocalFrame& frame,
                    const Eigen::AlignedBox2d& box, ImportReport& report) {
-  Ground ground = ground_of(grid, file.frame, frame, box);
+  PlacedTerrain ground = ground_of(grid, file.frame, frame, box);
   if (!ground.covered) {
     report.remarks.push_back(file.file.native() +
                              ": does not cover the city; beyond it the ground is as at its edge");

@@ -175,8 +175,8 @@ double height_at_origin(const AsciiGrid& grid, TerrainFrame unit, const Geodetic
                                       : grid.at(origin.longitude_deg, origin.latitude_deg);
 }
 
-Ground ground_of(const AsciiGrid& grid, TerrainFrame unit, const LocalFrame& frame,
-                 const Eigen::AlignedBox2d& box) {
+PlacedTerrain ground_of(const AsciiGrid& grid, TerrainFrame unit, const LocalFrame& frame,
+                        const Eigen::AlignedBox2d& box) {
   const auto in_grid = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
     if (unit == TerrainFrame::kLocal) {
       return p;
@@ -184,7 +184,7 @@ Ground ground_of(const AsciiGrid& grid, TerrainFrame unit, const LocalFrame& fra
     const Geodetic point = frame.to_geodetic({p.x(), p.y(), 0.0});
     return {point.longitude_deg, point.latitude_deg};
   };
-  Ground ground;
+  PlacedTerrain ground;
   // A degree of latitude has 111.2 km, which sets the spacing of a grid in degrees.
   constexpr double kDegree_m = 111'200.0;
   const double extent_m = box.sizes().maxCoeff();

@@ -40,12 +40,12 @@ struct AsciiGrid {
                                       const Geodetic& origin);
 
 /// A city's ground from a grid: heights over the ground at the frame's origin.
-struct Ground {
+struct PlacedTerrain {
   Terrain terrain;
   bool covered{true};  ///< False: a part of the box lies beyond the grid.
 };
-[[nodiscard]] Ground ground_of(const AsciiGrid& grid, TerrainFrame unit, const LocalFrame& frame,
-                               const Eigen::AlignedBox2d& box);
+[[nodiscard]] PlacedTerrain ground_of(const AsciiGrid& grid, TerrainFrame unit,
+                                      const LocalFrame& frame, const Eigen::AlignedBox2d& box);
 
 /// Bilinear, on and beyond the edge as at the edge [m, up].
 [[nodiscard]] double height_at(const Terrain& terrain, const Eigen::Vector2d& point_m);

@@ -77,7 +77,7 @@ TEST_CASE("ground in local metres is the grid's, less its height at the origin")
       "ncols 3\nnrows 2\nxllcenter -100\nyllcenter -50\ncellsize 100\n40 50 60\n40 50 60\n");
   const LocalFrame frame{{.latitude_deg = 44.5, .longitude_deg = 11.3}};
 
-  const Ground ground =
+  const PlacedTerrain ground =
       ground_of(grid, TerrainFrame::kLocal, frame,
                 Eigen::AlignedBox2d{Eigen::Vector2d{-80, -40}, Eigen::Vector2d{80, 40}});
 
@@ -101,7 +101,7 @@ TEST_CASE("ground in degrees rises where its place on the map is") {
       grid_of("ncols 11\nnrows 11\nxllcenter 11.295\nyllcenter 44.495\ncellsize 0.001\n" + rows);
   const LocalFrame frame{{.latitude_deg = 44.5, .longitude_deg = 11.3}};
 
-  const Ground ground =
+  const PlacedTerrain ground =
       ground_of(grid, TerrainFrame::kGeographic, frame,
                 Eigen::AlignedBox2d{Eigen::Vector2d{-300, -300}, Eigen::Vector2d{300, 300}});
 
