@@ -136,7 +136,13 @@ listen(canvas, viewport, requestFrame, (x, y) => select(pick(viewport, placed, x
 async function showCity(run) {
   if (run === cityOfRun) return;
   cityOfRun = run;
-  city = await loadCity().catch(() => null);  // the ground station has just gone
+  const loaded = await loadCity().catch(() => undefined);
+  if (cityOfRun !== run) return;  // meanwhile another run has come
+  if (loaded === undefined) {     // the ground station has gone: asked again when it is back
+    cityOfRun = null;
+    return;
+  }
+  city = loaded;
   canvas.dataset.buildings = city?.buildings ?? 0;
   for (const id of ['show-city', 'roofs']) element(id).hidden = !city;
   element('attribution').hidden = !city?.attribution;

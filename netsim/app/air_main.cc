@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "netsim/app/replay.h"
 #include "netsim/app/synthetic.h"
@@ -233,6 +235,9 @@ void simulate(const std::string& runs_file, const std::string& out_file) {
       return std::cout;
     }
     file.open(out_file);
+    if (!file) {
+      throw std::runtime_error{"--out " + out_file + ": " + std::system_category().message(errno)};
+    }
     return file;
   });
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "common/posix/check.h"
@@ -113,7 +114,8 @@ std::vector<fs::path> check_output(const AirArguments& arguments) {
                                    files[0].native(),
                                    fs::path{files[0]}.replace_extension(".csv").native())};
     }
-    if (fs::exists(fs::symlink_status(files[i]))) {
+    std::error_code error;  // of a folder that may not be searched: said when the file is made
+    if (fs::exists(fs::symlink_status(files[i], error))) {
       throw UsageError{fmt::format("--out {}: {} exists", files[0].native(), files[i].native())};
     }
   }

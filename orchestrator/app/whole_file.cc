@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <system_error>
 #include <utility>
 
 #include "common/posix/check.h"
@@ -36,7 +37,8 @@ WholeFile::WholeFile(fs::path path) : path_{std::move(path)} {
   if (!path_.has_filename()) {
     throw UsageError{fmt::format("--out {}: the name of a file is missing", path_.native())};
   }
-  if (fs::exists(fs::symlink_status(path_))) {
+  std::error_code error;  // of a folder that may not be searched; a missing one is found below
+  if (fs::exists(fs::symlink_status(path_, error))) {
     throw taken(path_);
   }
   const fs::path folder = folder_of(path_);
@@ -46,9 +48,9 @@ WholeFile::WholeFile(fs::path path) : path_{std::move(path)} {
     fd = ::open(beside_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, kReadableByAll);
   }
   if (fd < 0) {
-    const int error = errno;
+    const int cause = errno;
     beside_.clear();
-    throw cannot_make(path_, error);
+    throw cannot_make(path_, cause);
   }
   file_ = posix::UniqueFd{fd};
 }

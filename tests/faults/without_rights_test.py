@@ -102,6 +102,19 @@ class WithoutRights(unittest.TestCase):
         for path in made:
             self.assertEqual((path.stat().st_uid, path.stat().st_gid), (NOBODY, NOBODY), path)
 
+    def test_maps_and_tables_into_a_closed_folder(self):
+        closed = self.home / "closed"
+        closed.mkdir(mode=0o700)
+        for command in (["city", "generate", "grid", "--out", closed / "x.osm"],
+                        ["air", self.scenario, "--duration", "1s", "--out", closed / "x.csv"]):
+            done = subprocess.run([*AS_NOBODY, self.bin / "cuscus", *command], capture_output=True,
+                                  text=True, timeout=60, cwd=self.home)
+            self.assertEqual(done.returncode, 2, done)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn(f"{closed}/x.", done.stderr)
+            self.assertIn("Permission denied", done.stderr)
+            self.assertEqual(list(closed.iterdir()), [])
+
     def test_user_namespace_flies(self):
         done = self.start(*TUN_FOR_ALL, *AS_NOBODY)
         self.assertIn(done.returncode, (0, 3), done.stderr)
